@@ -1,0 +1,105 @@
+#include "core/statistics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace lucerna {
+namespace {
+
+// Standard deviation of the mean of `count` values; 0 variance is exact, not rounded below 0.
+double deviation_of_mean(double sum, double sum_of_squares, std::uint64_t count) {
+    if (count < 2) return std::numeric_limits<double>::infinity();
+    const auto n = static_cast<double>(count);
+    const double spread = sum_of_squares - sum * sum / n;
+    return std::sqrt(std::max(0.0, spread) / (n * (n - 1.0)));
+}
+
+// Regularised incomplete beta function I_x(a, b) by its continued fraction
+// (Lentz's method; DLMF 8.17.22). Used for Student's t below.
+double incomplete_beta(double a, double b, double x) {
+    if (x <= 0.0) return 0.0;
+    if (x >= 1.0) return 1.0;
+    if (x > (a + 1.0) / (a + b + 2.0)) return 1.0 - incomplete_beta(b, a, 1.0 - x);
+    const double front = std::exp(std::lgamma(a + b) - std::lgamma(a) - std::lgamma(b) +
+                                  a * std::log(x) + b * std::log1p(-x)) /
+                         a;
+    constexpr double tiny = 1e-300;
+    double f = 1.0;
+    double c = 1.0;
+    double d = 0.0;
+    for (int i = 0; i < 400; ++i) {
+        const int m = i / 2;
+        double numerator = 1.0;
+        if (i > 0 && i % 2 == 0) {
+            numerator = m * (b - m) * x / ((a + 2.0 * m - 1.0) * (a + 2.0 * m));
+        } else if (i > 0) {
+            numerator = -(a + m) * (a + b + m) * x / ((a + 2.0 * m) * (a + 2.0 * m + 1.0));
+        }
+        d = 1.0 + numerator * d;
+        if (std::abs(d) < tiny) d = tiny;
+        d = 1.0 / d;
+        c = 1.0 + numerator / c;
+        if (std::abs(c) < tiny) c = tiny;
+        f *= c * d;
+        if (std::abs(1.0 - c * d) < 1e-15) break;
+    }
+    return front * (f - 1.0);
+}
+
+}  // namespace
+
+double student_t(double coverage, double degrees) {
+    // P(|T| > t) = I_x(degrees/2, 1/2) with x = degrees / (degrees + t^2)   (DLMF 8.17, A&S 26.7.1)
+    const auto outside = [&](double t) {
+        return incomplete_beta(degrees / 2.0, 0.5, degrees / (degrees + t * t));
+    };
+    double low = 0.0;
+    double high = 1.0;
+    while (outside(high) > 1.0 - coverage && high < 1e12) high *= 2.0;
+    for (int i = 0; i < 200 && high - low > 1e-12 * high; ++i) {
+        const double middle = 0.5 * (low + high);
+        (outside(middle) > 1.0 - coverage ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+void Estimate::add(double value, double bias) {
+    ++count_;
+    sum_ += value;
+    sum_of_squares_ += value * value;
+    bias_sum_ += bias;
+    bias_sum_of_squares_ += bias * bias;
+}
+
+void Estimate::merge(const Estimate& other) {
+    count_ += other.count_;
+    sum_ += other.sum_;
+    sum_of_squares_ += other.sum_of_squares_;
+    bias_sum_ += other.bias_sum_;
+    bias_sum_of_squares_ += other.bias_sum_of_squares_;
+}
+
+double Estimate::mean() const { return count_ == 0 ? 0.0 : sum_ / static_cast<double>(count_); }
+
+double Estimate::standard_error() const {
+    return deviation_of_mean(sum_, sum_of_squares_, count_);
+}
+
+double Estimate::bias() const {
+    return count_ == 0 ? 0.0 : bias_sum_ / static_cast<double>(count_);
+}
+
+double Estimate::bias_standard_error() const {
+    return deviation_of_mean(bias_sum_, bias_sum_of_squares_, count_);
+}
+
+double Estimate::expanded_uncertainty(double coverage) const {
+    if (count_ < 2) return std::numeric_limits<double>::infinity();
+    // Noise of the mean, and the measured kernel bias as a bound that adds to it linearly.
+    const double t = student_t(coverage, static_cast<double>(count_ - 1));
+    return t * standard_error() + std::abs(bias());
+}
+
+}  // namespace lucerna

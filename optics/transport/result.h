@@ -1,0 +1,73 @@
+// What a simulation leaves behind.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/statistics.h"
+#include "optics/transport/settings.h"
+
+namespace lucerna::optics {
+
+/// Image of a camera; row 0 is the top row.
+struct Image {
+    std::string name;
+    int width = 0, height = 0;
+    std::vector<Estimate> luminance;       ///< per pixel [cd/m2], with kernel bias
+    std::vector<float> x, z;               ///< tristimulus values X, Z on the scale of Y = luminance
+    std::vector<double> bin_edges_nm;      ///< spectral_bins + 1 edges, or empty
+    std::vector<float> spectral_radiance;  ///< [pixel * bins + bin], mean in the bin [W/(m2 sr nm)]
+    double delta = 0.0;                    ///< METHOD eq. 6
+    double delta_bias = 0.0;               ///< the same norm of the measured kernel bias
+};
+
+/// One reported number.
+struct Quantity {
+    std::string name;      ///< of the sensor or receiver, with its point: "desk plane[3,1]"
+    std::string quantity;  ///< term of CIE S 017: "illuminance", "luminance", "luminous flux"
+    std::string unit;      ///< "lx", "cd/m2", "lm"
+    Estimate estimate;
+    double x = 0.0, z = 0.0;  ///< X and Z beside the value as Y; 0 where colour has no meaning
+};
+
+/// Where the light of the secondary forward rays went [lm]; closes to the sum of emitted.
+struct FluxBalance {
+    double emitted = 0.0;
+    std::map<std::string, double> absorbed;  ///< per material or medium
+    double escaped = 0.0;                    ///< left the scene
+    double trapped = 0.0;                    ///< held for ever by a lossless solid
+    double inconsistent_medium = 0.0;        ///< lost where the geometry of solids contradicts itself
+    double numerical = 0.0;                  ///< lost to undefined numbers
+    double roulette_residue = 0.0;           ///< of Russian roulette, zero on average
+    double closure() const;                  ///< emitted minus all of the above [lm]
+};
+
+struct RayCounts {
+    std::uint64_t backward_rays = 0;          ///< paths from observers
+    std::uint64_t caustic_rays = 0;           ///< paths from lights, caustic step
+    std::uint64_t secondary_rays = 0;         ///< paths from lights, secondary step
+    std::uint64_t backward_segments = 0, forward_segments = 0, shadow_segments = 0;
+    std::uint64_t forward_photons = 0;        ///< stored in forward maps
+    std::uint64_t backward_photons = 0;       ///< stored in backward maps
+    std::uint64_t scattering_hits = 0;        ///< hits of secondary rays on scattering surfaces
+    std::uint64_t deposits = 0;
+    double backward_s = 0.0, caustic_s = 0.0, secondary_s = 0.0, maps_s = 0.0;  ///< wall time
+};
+
+struct Result {
+    std::vector<Image> images;
+    std::vector<Quantity> quantities;
+    FluxBalance flux_balance_lm;
+    RayCounts rays;
+    std::uint64_t forward_map_bytes = 0, backward_map_bytes = 0, image_bytes = 0;  ///< largest seen
+    Settings settings;
+    std::uint32_t phases = 0;
+    double wall_s = 0.0;
+    std::string stopped_by;  ///< "accuracy", "time limit", "phases"
+    bool accuracy_reached = true;
+    std::vector<std::string> warnings;
+};
+
+}  // namespace lucerna::optics

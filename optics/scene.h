@@ -25,6 +25,8 @@ struct Object {
     BsdfId back = 0;                  ///< on the other side
     std::optional<MediumId> interior; ///< for solids of a transparent medium
     std::string material;             ///< name of the material, for the flux balance
+    /// Orients an anisotropic BSDF: its local y axis is `up` projected onto the surface.
+    std::optional<Vec3> up;
 };
 
 /// The parts of a scene as a file or a test states them.

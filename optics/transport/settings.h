@@ -9,6 +9,13 @@ namespace lucerna::optics {
 
 enum class Method { combined, forward, backward, path };
 
+/// Errors of the partition of light that a test can plant, to show that it would notice them.
+enum class PlantedError {
+    none,
+    double_count,  ///< emission behind specular events is counted by ray and by map
+    gap            ///< backward photons refuse light that comes straight from a light
+};
+
 struct Settings {
     Method method = Method::combined;
     std::uint64_t seed = 1;
@@ -20,6 +27,7 @@ struct Settings {
     std::optional<std::uint32_t> forward_rays;  ///< per phase and map; default: as backward rays
     int samples_per_pixel = 1;                  ///< backward rays per pixel and phase
     int spectral_bins = 0;                      ///< bins of the spectral image; 0: none
+    PlantedError planted_error = PlantedError::none;  ///< for tests only
 };
 
 }  // namespace lucerna::optics

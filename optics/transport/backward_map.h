@@ -1,0 +1,82 @@
+// The backward photon map (METHOD eq. 3): vertices of backward rays that collect the flux of forward
+// rays hitting their surroundings.
+#pragma once
+
+#include <vector>
+
+#include "optics/transport/cell_grid.h"
+#include "optics/transport/forward_map.h"
+
+namespace lucerna::optics {
+
+/// A vertex of a backward ray.
+struct BackwardPhoton {
+    SurfacePoint point;
+    Vec3 wo;                 ///< local direction toward the observer
+    Lanes throughput;        ///< filter from here to the observer, BSDF weights included
+    BsdfId bsdf;
+    ObjectId medium_above, medium_below;
+    std::uint32_t bin;       ///< of the readings
+    std::uint8_t accepts;    ///< History values, or-ed
+    bool hero_only;
+};
+
+/// Filled by forward rays and then read once. The sums of a backward photon are written by one thread
+/// at a time and in the order of the rays, so that they do not depend on the number of threads.
+class BackwardMap {
+public:
+    BackwardMap() = default;
+    /// @param blocks  backward photons of blocks of observer samples, in order.
+    BackwardMap(const Phase& phase, const Radii& radii,
+                std::vector<std::vector<BackwardPhoton>> blocks);
+
+    /// What a block of forward rays left to deposit, sorted by the part of the map that it goes to.
+    struct Deposits {
+        std::vector<Photon> photons;
+        struct Pair {
+            std::uint32_t backward_photon, photon;
+        };
+        std::array<std::vector<Pair>, 64> by_part;
+    };
+    static constexpr std::size_t parts = 64;
+
+    /// Looks up the backward photons that a photon falls into; read-only, safe for concurrent use.
+    void find(const Photon& photon, Deposits& deposits) const;
+
+    /// Adds the deposits of a part of the map, blocks in order; parts may run concurrently.
+    /// Returns the number of deposits.
+    std::uint64_t apply(std::size_t part, std::span<const Deposits> blocks);
+
+    /// Calls read(bin, radiance, radiance_inner) for each backward photon of a block of observer samples,
+    /// in order; `rays` is the number of forward rays traced.
+    template <typename Read>
+    void read(std::size_t block, std::uint64_t rays, Read&& read) const {
+        for (std::size_t i = block_starts_[block]; i < block_starts_[block + 1]; ++i) {
+            if (!touched_[i]) continue;
+            const Gathered sum = radiance(i, rays);
+            read(photons_[i].bin, sum.radiance, sum.radiance_inner);
+        }
+    }
+
+    std::size_t size() const { return photons_.size(); }
+    std::size_t bytes() const;
+
+private:
+    struct Candidate {
+        std::uint32_t index;
+        Eigen::Vector3f position;
+    };
+
+    Gathered radiance(std::size_t i, std::uint64_t rays) const;
+    std::size_t part_of(std::uint32_t i) const { return i * parts / photons_.size(); }
+
+    const Phase* phase_ = nullptr;
+    const Radii* radii_ = nullptr;
+    std::vector<BackwardPhoton> photons_;
+    std::vector<std::size_t> block_starts_;
+    std::vector<Gathered> sums_;           // of f dPhi, at both radii
+    std::vector<std::uint8_t> touched_;
+    CellGrid<Candidate> grid_;             // each photon stands in all cells that its kernel meets
+};
+
+}  // namespace lucerna::optics

@@ -1,0 +1,260 @@
+#include "optics/transport/backward_trace.h"
+
+namespace lucerna::optics {
+namespace {
+
+constexpr std::uint8_t mask(History history) { return static_cast<std::uint8_t>(history); }
+constexpr std::uint8_t all_light =
+    mask(History::direct) | mask(History::caustic) | mask(History::indirect);
+
+/// One backward ray on its way.
+class BackwardRay {
+public:
+    BackwardRay(const Phase& phase, const Collection& collection, const SensorPlanes& planes,
+                const ForwardMap& forward_map, const Radii& radii, Readings& readings,
+                BackwardTally& tally, std::vector<BackwardPhoton>& stored)
+        : phase_(phase),
+          collection_(collection),
+          planes_(planes),
+          forward_map_(forward_map),
+          radii_(radii),
+          readings_(readings),
+          tally_(tally),
+          stored_(stored) {}
+
+    void trace(const ObserverBins& bins, std::size_t bin, std::uint32_t sample) {
+        const auto path_number = static_cast<std::uint32_t>(bins.first_path +
+                                                            bin * bins.samples_per_bin + sample);
+        RandomStream random(phase_.seed, phase_.number, RandomPurpose::backward, path_number);
+        bin_ = static_cast<std::uint32_t>(bins.first_bin + bin);
+        scatterings_ = 0;
+        specular_since_ = false;
+        path_ = {};
+        path_.weight = Lanes::Constant(1.0f / static_cast<float>(bins.samples_per_bin));
+        if (!leave_observer(bins.observer, bin, random)) return;
+        while (next_event(random)) {
+        }
+    }
+
+private:
+    // Starts the ray; false if nothing remains to be traced.
+    bool leave_observer(std::size_t number, std::size_t bin, RandomStream& random) {
+        const Observer& observer = phase_.stage.parts().observers[number];
+        const double u1 = random.uniform();
+        const double u2 = random.uniform();
+        if (const auto* camera = std::get_if<Camera>(&observer)) {
+            const auto width = static_cast<std::size_t>(camera->width);
+            path_.ray = camera->ray(static_cast<double>(bin % width) + u1,
+                                    static_cast<double>(bin / width) + u2);
+        } else if (const auto* meter = std::get_if<LuminanceMeter>(&observer)) {
+            const Frame frame(meter->direction);
+            path_.ray = {meter->position,
+                         frame.to_world(sample_cone(std::cos(meter->acceptance_half_angle_rad), u1, u2))};
+        } else {
+            const auto& points = std::get<IlluminancePoints>(observer);
+            return leave_sensor(points, bin, planes_.plane_of(number, bin), u1, u2, random);
+        }
+        path_.media = phase_.stage.media_at(path_.ray.origin);
+        return true;
+    }
+
+    // An illuminance point is the first scattering event of its rays: a virtual white diffuser whose
+    // luminance is L = E / pi.
+    bool leave_sensor(const IlluminancePoints& points, std::size_t bin, std::uint32_t plane,
+                      double u1, double u2, RandomStream& random) {
+        const Vec3& position = points.positions[bin];
+        const SurfacePoint point{position, points.normal, no_object, plane, plane};
+        const Frame frame(points.normal);
+        const Vec3 wo = Vec3::UnitZ();
+        const Bsdf& diffuser = phase_.stage.parts().bsdfs[phase_.stage.white_diffuser()];
+        const SurfaceOptics optics = optics_at(phase_, no_object, no_object, false);
+        const GatherPoint at{point, frame, wo, diffuser, optics};
+        path_.media = phase_.stage.media_at(position);
+        path_.weight *= static_cast<float>(pi);
+        readings_.add(phase_, bin_,
+                      path_.weight * light_sample(phase_, at, nullptr, path_.media, path_.media,
+                                                  random, tally_.shadow_segments));
+        gather(at, collection_.sensor_gather);
+        const Vec3 wi = sample_cosine_hemisphere(u1, u2);
+        path_.ray = {position, frame.to_world(wi)};
+        scattered_at(position, wi.z() / pi);
+        return true;
+    }
+
+    // Follows the path to the next surface and through its event; false when the path has ended.
+    bool next_event(RandomStream& random) {
+        const Stage& stage = phase_.stage;
+        const auto encounter = next_encounter(phase_, path_);
+        ++tally_.segments;
+        if (!encounter) return false;
+        path_.weight *= encounter->transmittance;
+        add_emission(*encounter);
+        if (!encounter->consistent) return false;
+        if (encounter->bsdf == pass_through) {
+            pass(path_, *encounter);
+            return true;
+        }
+        const bool collected = scatterings_ > 0 && !collection_.whole_path;
+        if (collected && collection_.second_deposit == 0) return false;
+
+        const Bsdf& bsdf = stage.parts().bsdfs[encounter->bsdf];
+        const SurfaceOptics optics = optics_at(phase_, encounter->medium_above,
+                                               encounter->medium_below, path_.hero_only);
+        if (stage.scatters(encounter->bsdf)) {
+            if (collected) {
+                store(*encounter, collection_.second_deposit);
+            } else {
+                collect(*encounter, bsdf, optics, random);
+            }
+        }
+        const double u_lobe = random.uniform();
+        const double u1 = random.uniform();
+        const double u2 = random.uniform();
+        const auto sampled =
+            sample(bsdf, optics, encounter->wo, u_lobe, u1, u2, Transport::radiance);
+        if (!sampled || (collected && !sampled->specular)) return false;
+        const bool turned_hero = sampled->hero_only && !path_.hero_only;
+        const Lanes factors = sampled->weight * encounter->transmittance;
+        follow(path_, *encounter, *sampled);
+        if (sampled->specular) {
+            specular_since_ = true;
+        } else {
+            scattered_at(encounter->point.position, sampled->pdf_solid_angle);
+        }
+        float factor = live_max(phase_, path_.hero_only, factors);
+        if (turned_hero) factor /= spectral::lane_count;
+        if (sampled->wi.z() * encounter->wo.z() < 0.0) {
+            // Radiance changes with n^2 and back again; that is no reason to end or to keep a path.
+            const int hero = phase_.wavelengths.hero;
+            const float ratio = encounter->wo.z() > 0.0
+                                    ? optics.index_below[hero] / optics.index_above[hero]
+                                    : optics.index_above[hero] / optics.index_below[hero];
+            factor *= ratio * ratio;
+        }
+        return roulette(path_, factor, random) == Fate::goes_on;
+    }
+
+    void scattered_at(const Vec3& position, double pdf) {
+        ++scatterings_;
+        specular_since_ = false;
+        scattered_from_ = position;
+        scattered_pdf_ = pdf;
+    }
+
+    void add_emission(const Encounter& encounter) {
+        const std::uint32_t light = phase_.stage.light_of(encounter.point.object);
+        if (light == no_light) return;
+        double weight = 1.0;
+        if (scatterings_ > 0 && specular_since_) {
+            if (!collection_.emission_behind_specular) return;  // the maps' part
+        } else if (scatterings_ > 0) {
+            weight = emission_weight(phase_, light, scattered_from_, encounter.point, scattered_pdf_);
+        }
+        const Lanes radiance =
+            emitted_radiance(phase_, light, encounter.point, -path_.ray.direction);
+        readings_.add(phase_, bin_, path_.weight * radiance * static_cast<float>(weight));
+    }
+
+    // Direct and gathered light at the first scattering event (at every one in path tracing).
+    void collect(const Encounter& encounter, const Bsdf& bsdf, const SurfaceOptics& optics,
+                 RandomStream& random) {
+        const GatherPoint at{encounter.point, encounter.frame, encounter.wo, bsdf, optics};
+        const bool above = encounter.wo.z() > 0.0;
+        readings_.add(phase_, bin_,
+                      path_.weight *
+                          light_sample(phase_, at, &encounter.point,
+                                       above ? path_.media : encounter.media_beyond,
+                                       above ? encounter.media_beyond : path_.media, random,
+                                       tally_.shadow_segments));
+        if (scatterings_ > 0) return;
+        gather(at, collection_.first_gather);
+        if (collection_.first_deposit) store(encounter, collection_.first_deposit);
+    }
+
+    void gather(const GatherPoint& at, std::uint8_t histories) {
+        if (!histories) return;
+        const Gathered gathered = forward_map_.gather(phase_, radii_, at);
+        readings_.add(phase_, bin_, path_.weight * gathered.radiance);
+        const Lanes bias = 2.0f * (gathered.radiance - gathered.radiance_inner);
+        readings_.add_bias(bin_, phase_.luminous(path_.weight * bias));
+    }
+
+    void store(const Encounter& encounter, std::uint8_t accepts) {
+        stored_.push_back({.point = encounter.point,
+                           .wo = encounter.wo,
+                           .throughput = path_.weight,
+                           .bsdf = encounter.bsdf,
+                           .medium_above = encounter.medium_above,
+                           .medium_below = encounter.medium_below,
+                           .bin = bin_,
+                           .accepts = accepts,
+                           .hero_only = path_.hero_only});
+    }
+
+    const Phase& phase_;
+    const Collection& collection_;
+    const SensorPlanes& planes_;
+    const ForwardMap& forward_map_;
+    const Radii& radii_;
+    Readings& readings_;
+    BackwardTally& tally_;
+    std::vector<BackwardPhoton>& stored_;
+
+    Path path_;
+    std::uint32_t bin_ = 0;
+    int scatterings_ = 0;
+    bool specular_since_ = false;  // the last scattering event
+    Vec3 scattered_from_ = Vec3::Zero();
+    double scattered_pdf_ = 0.0;
+};
+
+}  // namespace
+
+Collection Collection::of(Method method, PlantedError planted) {
+    constexpr std::uint8_t caustic = mask(History::caustic);
+    constexpr std::uint8_t mapped = caustic | mask(History::indirect);
+    Collection collection;
+    switch (method) {
+        case Method::combined:
+            collection.first_gather = collection.sensor_gather = caustic;
+            collection.second_deposit = all_light;
+            break;
+        case Method::forward:
+            collection.first_gather = collection.sensor_gather = mapped;
+            break;
+        case Method::backward:
+            collection.sensor_gather = caustic;
+            collection.first_deposit = caustic;
+            collection.second_deposit = all_light;
+            break;
+        case Method::path:
+            collection.whole_path = true;
+            collection.emission_behind_specular = true;
+            break;
+    }
+    if (planted == PlantedError::double_count) collection.emission_behind_specular = true;
+    if (planted == PlantedError::gap) collection.second_deposit &= mapped;
+    return collection;
+}
+
+bool Collection::needs_forward_map(bool has_caustics, bool has_sensors) const {
+    const std::uint8_t wanted = static_cast<std::uint8_t>(first_gather | (has_sensors ? sensor_gather : 0));
+    return (wanted & mask(History::indirect)) || (wanted && has_caustics);
+}
+
+std::vector<BackwardPhoton> trace_backward(const Phase& phase, const Collection& collection,
+                                           const BinBlock& block, const SensorPlanes& planes,
+                                           const ForwardMap& forward_map, const Radii& forward_radii,
+                                           Readings& readings, BackwardTally& tally) {
+    std::vector<BackwardPhoton> stored;
+    const ObserverBins& bins = readings.observers()[block.observer_bins];
+    BackwardRay ray(phase, collection, planes, forward_map, forward_radii, readings, tally, stored);
+    for (std::size_t bin = block.first; bin < block.last; ++bin) {
+        for (std::uint32_t sample = 0; sample < bins.samples_per_bin; ++sample) {
+            ray.trace(bins, bin, sample);
+        }
+    }
+    return stored;
+}
+
+}  // namespace lucerna::optics

@@ -1,0 +1,29 @@
+// Direct light at a scattering surface by multiple importance sampling (METHOD eq. 4).
+#pragma once
+
+#include "optics/transport/forward_map.h"
+
+namespace lucerna::optics {
+
+/// Weight of a sample from one of two densities, balance heuristic (Veach 1997, eq. 9.8).
+inline double balance_weight(double own, double other) {
+    return own > 0.0 ? own / (own + other) : 0.0;
+}
+
+/// Radiance scattered toward wo from one sampled point of one light, weighed against sampling the
+/// BSDF. Unbiased together with emission_weight().
+/// @param media_above, media_below  solids that hold the space on both sides of the surface.
+/// @param point_surface  nullptr for a point in free space.
+Lanes light_sample(const Phase& phase, const GatherPoint& at, const SurfacePoint* surface,
+                   const MediumStack& media_above, const MediumStack& media_below,
+                   RandomStream& random, std::uint64_t& shadow_segments);
+
+/// Weight of emission found by a direction that the BSDF chose with density `pdf_solid_angle` from x.
+double emission_weight(const Phase& phase, std::uint32_t light, const Vec3& x,
+                       const SurfacePoint& emitter, double pdf_solid_angle);
+
+/// Emitted spectral radiance of a surface point toward a direction [W/(m2 sr nm)].
+Lanes emitted_radiance(const Phase& phase, std::uint32_t light, const SurfacePoint& point,
+                       const Vec3& direction);
+
+}  // namespace lucerna::optics

@@ -1,0 +1,76 @@
+#include "optics/transport/forward_map.h"
+
+namespace lucerna::optics {
+
+bool in_kernel(const Stage& stage, const SurfacePoint& p, const SurfacePoint& q, double radius_m) {
+    if ((p.position - q.position).squaredNorm() >= radius_m * radius_m) return false;
+    // On curved sides the distance is longer than the chord.
+    return p.object == no_object ||
+           within_kernel(stage.parts().objects[p.object].shape, p, q, radius_m);
+}
+
+double kernel_area(const Stage& stage, const SurfacePoint& p, double radius_m) {
+    if (p.object == no_object) return pi * radius_m * radius_m;
+    return kernel_area_m2(stage.parts().objects[p.object].shape, p, radius_m);
+}
+
+Vec3 kernel_direction(const Frame& frame, const Photon& photon) {
+    Vec3 wi = frame.to_local(-photon.direction);
+    const double cosine = -photon.direction.dot(photon.point.normal);
+    const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+    const double across = std::hypot(wi.x(), wi.y());
+    const double stretch = across > 0.0 ? sine / across : 0.0;
+    return {wi.x() * stretch, wi.y() * stretch, cosine};
+}
+
+ForwardMap::ForwardMap(const Stage& stage, const Radii& radii, std::vector<Photon> photons,
+                       std::uint64_t rays)
+    : photons_(std::move(photons)), per_ray_(1.0 / static_cast<double>(rays)) {
+    std::vector<CellGrid<std::uint32_t>::Entry> entries;
+    entries.reserve(photons_.size());
+    for (std::uint32_t i = 0; i < photons_.size(); ++i) {
+        const std::uint32_t patch = kernel_patch(stage, photons_[i].point);
+        entries.push_back(
+            {CellKey::at(patch, photons_[i].point.position, 2.0 * radii[patch]), i});
+    }
+    grid_.build(std::move(entries));
+}
+
+Gathered ForwardMap::gather(const Phase& phase, const Radii& radii, const GatherPoint& at) const {
+    Gathered sum;
+    if (photons_.empty()) return sum;
+    const Stage& stage = phase.stage;
+    const std::uint32_t patch = kernel_patch(stage, at.point);
+    const double radius_m = radii[patch];
+    const double inner_m = inner_radius_factor * radius_m;
+    const Vec3 reach = Vec3::Constant(radius_m);
+    const CellKey low = CellKey::at(patch, at.point.position - reach, 2.0 * radius_m);
+    const CellKey high = CellKey::at(patch, at.point.position + reach, 2.0 * radius_m);
+    bool found = false;
+    for (std::int32_t x = low.x; x <= high.x; ++x) {
+        for (std::int32_t y = low.y; y <= high.y; ++y) {
+            for (std::int32_t z = low.z; z <= high.z; ++z) {
+                grid_.visit({patch, x, y, z}, [&](std::uint32_t i) {
+                    const Photon& photon = photons_[i];
+                    if (!in_kernel(stage, at.point, photon.point, radius_m)) return;
+                    found = true;
+                    const Vec3 wi = kernel_direction(at.frame, photon);
+                    Lanes f = evaluate(at.bsdf, at.optics, at.wo, wi, Transport::radiance);
+                    // The hero lane's factor lane_count must not enter by both sub-paths.
+                    if (photon.hero_only && at.optics.hero_only) f /= spectral::lane_count;
+                    sum.radiance += f * photon.flux;
+                    if (in_kernel(stage, at.point, photon.point, inner_m)) {
+                        sum.radiance_inner += f * photon.flux;
+                    }
+                });
+            }
+        }
+    }
+    if (!found) return sum;
+    // L = 1 / (A N) sum f dPhi                                                      METHOD eq. (2)
+    sum.radiance *= static_cast<float>(per_ray_ / kernel_area(stage, at.point, radius_m));
+    sum.radiance_inner *= static_cast<float>(per_ray_ / kernel_area(stage, at.point, inner_m));
+    return sum;
+}
+
+}  // namespace lucerna::optics

@@ -1,0 +1,67 @@
+// The forward photon map (METHOD eq. 2): photons from the lights, gathered where a backward ray meets
+// a scattering surface.
+#pragma once
+
+#include <vector>
+
+#include "optics/transport/cell_grid.h"
+#include "optics/transport/forward_trace.h"
+#include "optics/transport/radii.h"
+
+namespace lucerna::optics {
+
+/// Number of the patch whose kernels may hold the point; points of sensor planes follow the patches.
+inline std::uint32_t kernel_patch(const Stage& stage, const SurfacePoint& p) {
+    return p.object == no_object ? stage.patch_count() + p.patch : stage.patch_index(p);
+}
+
+/// True if q lies in the kernel of p; both have the same kernel patch.
+bool in_kernel(const Stage& stage, const SurfacePoint& p, const SurfacePoint& q, double radius_m);
+
+/// Area over which the kernel of p collects [m2].
+double kernel_area(const Stage& stage, const SurfacePoint& p, double radius_m);
+
+/// Local direction toward where a photon came from, for the BSDF at the centre of the kernel. The
+/// cosine is that at the photon's own point, so that a curved surface loses no grazing light.
+Vec3 kernel_direction(const Frame& frame, const Photon& photon);
+
+/// A kernel sum at two radii from the same photons: the bias of a density estimate is c r^2, so
+/// bias(r) = 2 (L(r) - L(r / sqrt 2)) up to O(r^4)  (METHOD section 6.1).
+inline constexpr double inner_radius_factor = 0.70710678118654752;
+
+/// Where and how photons are gathered.
+struct GatherPoint {
+    const SurfacePoint& point;
+    const Frame& frame;
+    const Vec3& wo;  ///< local direction toward the observer
+    const Bsdf& bsdf;
+    const SurfaceOptics& optics;
+};
+
+struct Gathered {
+    Lanes radiance = Lanes::Zero();        ///< at the full radius [W/(m2 sr nm)]
+    Lanes radiance_inner = Lanes::Zero();  ///< at the inner radius
+};
+
+/// Immutable after construction. Consistent: biased by O(r^2), and by nothing else.
+class ForwardMap {
+public:
+    ForwardMap() = default;
+    /// @param rays  number of forward rays whose photons these are.
+    ForwardMap(const Stage& stage, const Radii& radii, std::vector<Photon> photons,
+               std::uint64_t rays);
+
+    /// Scattered radiance at a point from the photons around it.
+    Gathered gather(const Phase& phase, const Radii& radii, const GatherPoint& at) const;
+
+    bool empty() const { return photons_.empty(); }
+    std::size_t size() const { return photons_.size(); }
+    std::size_t bytes() const { return photons_.size() * sizeof(Photon) + grid_.bytes(); }
+
+private:
+    std::vector<Photon> photons_;
+    CellGrid<std::uint32_t> grid_;  // cell size: twice the patch's radius
+    double per_ray_ = 0.0;
+};
+
+}  // namespace lucerna::optics

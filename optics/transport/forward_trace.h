@@ -1,0 +1,57 @@
+// Rays from the lights through the scene.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "optics/transport/path.h"
+#include "optics/transport/sensor_planes.h"
+
+namespace lucerna::optics {
+
+/// What a ray met between its light and the present surface.
+enum class History : std::uint8_t {
+    direct = 1,    ///< nothing
+    caustic = 2,   ///< one specular event at least, no scattering
+    indirect = 4   ///< one scattering event at least
+};
+
+/// A ray bundle from a light that arrives at a surface with scattering properties; it carries
+/// spectral flux, not a quantum of energy.
+struct Photon {
+    SurfacePoint point;
+    Vec3 direction;  ///< unit, along the flight of the light
+    Lanes flux;      ///< [W/nm] when divided by the number of rays of the trace
+    History history;
+    bool hero_only;
+};
+
+/// Counts of a block of forward rays. All fluxes in lm, not yet divided by the number of rays.
+struct ForwardTally {
+    explicit ForwardTally(const SceneParts& parts)
+        : absorbed_by_object(parts.objects.size(), 0.0),
+          absorbed_by_solid(parts.objects.size(), 0.0),
+          received_front(parts.objects.size(), 0.0),
+          received_back(parts.objects.size(), 0.0) {}
+
+    double emitted = 0.0, escaped = 0.0, trapped = 0.0, inconsistent = 0.0, numerical = 0.0;
+    double residue = 0.0;
+    std::vector<double> absorbed_by_object, absorbed_by_solid;  ///< on its surface, inside it
+    std::vector<double> received_front, received_back;          ///< arrived on each side
+    std::uint64_t segments = 0;
+
+    void operator+=(const ForwardTally& other);
+};
+
+/// How far forward rays are followed.
+enum class Reach { first_scattering, whole_path };
+
+/// Traces ray number `index` of a trace and gives every arrival at a scattering surface to `arrive`.
+/// With `first_scattering` the path ends there. Rays are unbiased samples of the light's flux; the
+/// sum over n rays divided by n estimates it.
+/// @param planes  virtual planes of sensors whose crossings count as arrivals too, or nullptr.
+void trace_forward(const Phase& phase, RandomPurpose purpose, std::uint32_t index, Reach reach,
+                   const SensorPlanes* planes, ForwardTally& tally,
+                   const std::function<void(const Photon&)>& arrive);
+
+}  // namespace lucerna::optics

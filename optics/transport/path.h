@@ -1,0 +1,67 @@
+// One path of light, forward or backward: from encounter to encounter with surfaces.
+#pragma once
+
+#include <optional>
+
+#include "core/random.h"
+#include "optics/transport/phase.h"
+
+namespace lucerna::optics {
+
+struct Path {
+    Ray ray;
+    SurfacePoint start;       ///< where the ray leaves; object == no_object in free space
+    MediumStack media;        ///< the solids that hold the current segment
+    Lanes weight;             ///< forward: spectral flux [W/nm]; backward: throughput
+    bool hero_only = false;   ///< behind a dispersive refraction only the hero lane counts
+    std::uint32_t lossless_events = 0;  ///< in a row
+};
+
+/// A surface at the end of a segment, before the path reacts to it.
+struct Encounter {
+    SurfacePoint point;
+    Lanes transmittance;      ///< internal, of the segment that led here
+    BsdfId bsdf = pass_through;  ///< of the side that the path meets; pass_through: does not act
+    Frame frame;              ///< local frame of the BSDF, z along the normal
+    Vec3 wo;                  ///< local direction back along the path
+    ObjectId medium_above = no_object, medium_below = no_object;  ///< acting solids on both sides
+    MediumStack media_beyond; ///< behind the surface, seen from the path
+    bool consistent = true;   ///< false: leaves a solid never entered, or enters one twice
+};
+
+/// The next surface along the path, or nothing if the path leaves the scene.
+std::optional<Encounter> next_encounter(const Phase& phase, const Path& path);
+
+/// The frame in which an object's BSDF is stated at a surface point.
+Frame bsdf_frame(const Phase& phase, const SurfacePoint& point);
+
+/// What the BSDF at an encounter needs to know.
+SurfaceOptics optics_at(const Phase& phase, ObjectId medium_above, ObjectId medium_below,
+                        bool hero_only);
+
+/// Crosses a surface that does not act on light.
+void pass(Path& path, const Encounter& encounter);
+
+/// Leaves the encounter in the sampled direction; the weight is multiplied by the sample's.
+void follow(Path& path, const Encounter& encounter, const BsdfSample& sample);
+
+/// Largest of the lanes that still count on the path.
+inline float live_max(const Phase& phase, bool hero_only, const Lanes& lanes) {
+    return hero_only ? lanes[phase.wavelengths.hero] : lanes.maxCoeff();
+}
+
+/// Whether a path goes on after an event. Unbiased but for `trapped`, which is reported.
+enum class Fate { goes_on, ended_by_roulette, trapped };
+
+/// Russian roulette after an event that multiplied the weight by `factor` (largest live lane): the
+/// path survives with probability min(1, factor) and is scaled up accordingly.
+///
+/// A path that loses nothing is never ended by that. From 256 events in a row without loss on, it is
+/// halved at each power of two by roulette, and after 2^17 such events its light is declared trapped:
+/// a lossless solid holds it for ever, up to one part in 10^5 of leakage per event.
+Fate roulette(Path& path, float factor, RandomStream& random);
+
+inline constexpr std::uint32_t first_lossless_roulette = 256;
+inline constexpr std::uint32_t trapped_after_events = 1u << 17;
+
+}  // namespace lucerna::optics

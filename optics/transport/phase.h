@@ -1,0 +1,30 @@
+// What all rays of one phase share: its wavelengths and the values of all spectra on them.
+#pragma once
+
+#include "optics/transport/stage.h"
+
+namespace lucerna::optics {
+
+struct Phase {
+    Phase(const Stage& stage_, std::uint64_t seed_, std::uint32_t number_);
+
+    const Stage& stage;
+    std::uint64_t seed;
+    std::uint32_t number;  ///< counts from 0
+    spectral::WavelengthSet wavelengths;
+    PhaseSpectra spectra;  ///< of the scene, by SpectrumId
+
+    /// Index of refraction and absorption coefficient of the medium in a solid (or surroundings).
+    Lanes index(ObjectId acting_solid) const;
+    bool dispersive(ObjectId acting_solid) const;
+    /// Internal transmittance over a length; 1 in the surroundings.
+    Lanes transmittance(ObjectId acting_solid, double length_m) const;
+    bool absorbs(ObjectId acting_solid) const;
+
+    /// Luminous quantity of spectral lanes: W/nm -> lm, W/(m2 sr nm) -> cd/m2.
+    double luminous(const Lanes& spectral) const {
+        return static_cast<double>((spectral * wavelengths.luminance).sum());
+    }
+};
+
+}  // namespace lucerna::optics

@@ -1,0 +1,36 @@
+// Integration radii of the photon maps: adapted to each patch by pilot rays, then shrinking.
+#pragma once
+
+#include <vector>
+
+#include "optics/transport/stage.h"
+
+namespace lucerna::optics {
+
+struct Photon;
+
+/// The radius of each patch's kernels in one phase [m]; the patches of sensor planes come last.
+class Radii {
+public:
+    Radii(std::vector<double> first_radii_m) : radii_m_(std::move(first_radii_m)) {}
+    double operator[](std::uint32_t patch) const { return radii_m_[patch]; }
+
+    /// Radii of a phase: r_i^2 = r_1^2 i^(alpha - 1) with alpha = 2/3, which balances variance
+    /// O(N^-alpha) and bias O(N^(alpha - 1)) of the mean (Knaus and Zwicker, TOG 30(3), 2011, sec. 5).
+    Radii at_phase(std::uint32_t number) const;
+
+private:
+    std::vector<double> radii_m_;
+};
+
+/// Radii at which a kernel holds about `photons_per_kernel` photons in a phase with
+/// `scale` times as many rays as the pilot trace that found `photons`.
+///
+/// The density is the median of what the photons of a patch see around themselves: it follows the
+/// places where the light is, so that a caustic on a wide floor gets the radius of the caustic.
+/// No radius exceeds an eighth of the patch's size, nor a 20th of the scene's radius.
+/// @param sensor_planes, sensor_limit_m  number of virtual patches and their largest radius.
+Radii pilot_radii(const Stage& stage, const std::vector<Photon>& photons, double photons_per_kernel,
+                  double scale, std::uint32_t sensor_planes, double sensor_limit_m);
+
+}  // namespace lucerna::optics

@@ -1,0 +1,362 @@
+// The page to read first. One phase (METHOD section 2):
+//   1 forward trace, caustic          trace_photons()
+//   2 caustic forward map             ForwardMap
+//   3 backward trace                  trace_backward(): emission, direct light, caustic gather
+//   4 secondary backward map          BackwardMap
+//   5 forward trace, secondary        trace_and_deposit()
+//   6 form the images and their error Readings, StopRule
+
+#include "optics/transport/simulate.h"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+
+#include "core/parallel.h"
+#include "optics/transport/accuracy.h"
+#include "optics/transport/backward_trace.h"
+
+namespace lucerna::optics {
+namespace {
+
+constexpr std::uint32_t rays_per_block = 256;
+constexpr std::uint32_t blocks_per_chunk = 64;  // deposits of a chunk are held at once
+constexpr std::uint32_t pilot_rays = 1 << 14;
+constexpr std::uint32_t min_forward_rays = 20000;
+// Expected photons in a kernel of the first phase: few where the kernel is hidden behind a scattering
+// event, more where it is seen.
+constexpr double photons_per_hidden_kernel = 8.0;
+constexpr double photons_per_seen_kernel = 24.0;
+
+class Stopwatch {
+public:
+    double seconds() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+class Simulation {
+public:
+    Simulation(const SceneParts& parts, const Settings& settings)
+        : settings_(settings),
+          stage_(parts),
+          threads_(settings.threads > 0 ? settings.threads : hardware_threads()),
+          planes_(parts, stage_.caster().scene_radius_m() / 20.0),
+          readings_(parts, settings),
+          collection_(Collection::of(settings.method, settings.planted_error)),
+          forward_rays_(settings.forward_rays.value_or(static_cast<std::uint32_t>(
+              std::max<std::uint64_t>(min_forward_rays, readings_.samples_per_phase())))),
+          total_(stage_.parts()),
+          received_(2 * parts.receivers.size()) {
+        pilot();
+    }
+
+    void run_phase(std::uint32_t number) {
+        const Phase phase(stage_, settings_.seed, number);
+        const Radii seen_radii = seen_radii_->at_phase(number);
+        const Radii hidden_radii = hidden_radii_->at_phase(number);
+        ForwardTally tally(stage_.parts());
+
+        ForwardMap forward_map;
+        const bool stores_all = collection_.first_gather & mask(History::indirect);
+        if (needs_forward_map()) {
+            Stopwatch watch;
+            ForwardTally caustic_tally(stage_.parts());
+            const Reach reach = stores_all ? Reach::whole_path : Reach::first_scattering;
+            std::vector<Photon> photons = trace_photons(phase, RandomPurpose::caustic, reach,
+                                                        forward_rays_, caustic_tally);
+            counts_.caustic_s += watch.seconds();
+            counts_.caustic_rays += forward_rays_;
+            counts_.forward_photons += photons.size();
+            counts_.forward_segments += caustic_tally.segments;
+            if (stores_all) tally = caustic_tally;
+            Stopwatch map_watch;
+            forward_map = ForwardMap(stage_, seen_radii, std::move(photons), forward_rays_);
+            counts_.maps_s += map_watch.seconds();
+            forward_map_bytes = std::max<std::uint64_t>(forward_map_bytes, forward_map.bytes());
+        }
+
+        Stopwatch backward_watch;
+        const auto& blocks = readings_.blocks();
+        std::vector<std::vector<BackwardPhoton>> stored(blocks.size());
+        std::vector<BackwardTally> backward_tallies(blocks.size());
+        for_each_block(blocks.size(), threads_, [&](std::size_t i) {
+            stored[i] = trace_backward(phase, collection_, blocks[i], planes_, forward_map,
+                                       seen_radii, readings_, backward_tallies[i]);
+        });
+        counts_.backward_s += backward_watch.seconds();
+        counts_.backward_rays += readings_.samples_per_phase();
+        for (const BackwardTally& block : backward_tallies) {
+            counts_.backward_segments += block.segments;
+            counts_.shadow_segments += block.shadow_segments;
+        }
+
+        if (!stores_all) {
+            Stopwatch map_watch;
+            BackwardMap backward_map(phase, hidden_radii, std::move(stored));
+            counts_.maps_s += map_watch.seconds();
+            counts_.backward_photons += backward_map.size();
+            backward_map_bytes = std::max<std::uint64_t>(backward_map_bytes, backward_map.bytes());
+            Stopwatch watch;
+            trace_and_deposit(phase, backward_map, tally);
+            for_each_block(blocks.size(), threads_, [&](std::size_t i) {
+                backward_map.read(i, forward_rays_, [&](std::uint32_t bin, const Lanes& radiance,
+                                                        const Lanes& inner) {
+                    readings_.add(phase, bin, radiance);
+                    readings_.add_bias(bin, 2.0 * phase.luminous(radiance - inner));
+                });
+            });
+            counts_.secondary_s += watch.seconds();
+        }
+        readings_.fold(threads_);
+        fold_tally(tally);
+        ++phases_;
+    }
+
+    double worst_receiver_error() const {
+        double worst = 0.0;
+        for (const Estimate& estimate : received_) {
+            const double error = estimate.standard_error();
+            if (error > 0.0) worst = std::max(worst, error / estimate.mean());
+        }
+        return worst;
+    }
+
+    Result result() const {
+        Result result;
+        const SceneParts& parts = stage_.parts();
+        result.images = readings_.images(parts);
+        result.quantities = readings_.quantities(parts);
+        for (std::size_t i = 0; i < parts.receivers.size(); ++i) {
+            result.quantities.push_back({parts.receivers[i].name + " (front)", "luminous flux",
+                                         "lm", received_[2 * i], 0.0, 0.0});
+            result.quantities.push_back({parts.receivers[i].name + " (back)", "luminous flux", "lm",
+                                         received_[2 * i + 1], 0.0, 0.0});
+        }
+        result.flux_balance_lm = balance();
+        result.rays = counts_;
+        result.forward_map_bytes = forward_map_bytes;
+        result.backward_map_bytes = backward_map_bytes;
+        result.image_bytes = readings_.bytes();
+        result.settings = settings_;
+        result.settings.forward_rays = forward_rays_;
+        result.settings.threads = threads_;
+        result.phases = phases_;
+        add_warnings(result);
+        return result;
+    }
+
+    const Readings& readings() const { return readings_; }
+    const RayCounts& counts() const { return counts_; }
+    const SceneParts& parts() const { return stage_.parts(); }
+
+private:
+    static constexpr std::uint8_t mask(History history) { return static_cast<std::uint8_t>(history); }
+
+    bool needs_forward_map() const {
+        return collection_.needs_forward_map(stage_.has_caustics(), planes_.count() > 0);
+    }
+
+    // Radii from a few rays of an extra phase whose results are not used (DESIGN decision 1).
+    void pilot() {
+        const Phase phase(stage_, settings_.seed, std::numeric_limits<std::uint32_t>::max());
+        const double scale = static_cast<double>(forward_rays_) / pilot_rays;
+        ForwardTally unused(stage_.parts());
+        const auto radii = [&](Reach reach, double photons_per_kernel) {
+            const auto photons =
+                trace_photons(phase, RandomPurpose::pilot, reach, pilot_rays, unused);
+            return pilot_radii(stage_, photons, photons_per_kernel, scale, planes_.count(),
+                               planes_.margin_m());
+        };
+        seen_radii_ = radii(collection_.first_gather & mask(History::indirect)
+                                ? Reach::whole_path
+                                : Reach::first_scattering,
+                            photons_per_seen_kernel);
+        hidden_radii_ = radii(Reach::whole_path, photons_per_hidden_kernel);
+    }
+
+    // Photons of all rays of a trace, in the order of the rays. Those of a trace to the first
+    // scattering event are the caustic ones; of whole paths, all but direct light if a map of them is
+    // gathered at seen surfaces.
+    std::vector<Photon> trace_photons(const Phase& phase, RandomPurpose purpose, Reach reach,
+                                      std::uint32_t rays, ForwardTally& tally) {
+        const std::uint32_t blocks = (rays + rays_per_block - 1) / rays_per_block;
+        std::vector<std::vector<Photon>> photons(blocks);
+        std::vector<ForwardTally> tallies(blocks, ForwardTally(stage_.parts()));
+        const bool keep_direct = purpose == RandomPurpose::pilot && reach == Reach::whole_path;
+        for_each_block(blocks, threads_, [&](std::size_t block) {
+            const auto first = static_cast<std::uint32_t>(block) * rays_per_block;
+            for (std::uint32_t i = first; i < std::min(rays, first + rays_per_block); ++i) {
+                trace_forward(phase, purpose, i, reach, &planes_, tallies[block],
+                              [&](const Photon& photon) {
+                                  if (keep_direct || photon.history != History::direct) {
+                                      photons[block].push_back(photon);
+                                  }
+                              });
+            }
+        });
+        std::vector<Photon> all;
+        for (std::uint32_t block = 0; block < blocks; ++block) {
+            all.insert(all.end(), photons[block].begin(), photons[block].end());
+            tally += tallies[block];
+        }
+        return all;
+    }
+
+    void trace_and_deposit(const Phase& phase, BackwardMap& map, ForwardTally& tally) {
+        // Path tracing needs forward rays for the receivers and the flux balance only.
+        const std::uint32_t rays = forward_rays_;
+        const std::uint32_t blocks = (rays + rays_per_block - 1) / rays_per_block;
+        for (std::uint32_t chunk = 0; chunk < blocks; chunk += blocks_per_chunk) {
+            const std::uint32_t count = std::min(blocks_per_chunk, blocks - chunk);
+            std::vector<BackwardMap::Deposits> deposits(count);
+            std::vector<ForwardTally> tallies(count, ForwardTally(stage_.parts()));
+            std::vector<std::uint64_t> hits(count);
+            for_each_block(count, threads_, [&](std::size_t block) {
+                const std::uint32_t first =
+                    (chunk + static_cast<std::uint32_t>(block)) * rays_per_block;
+                for (std::uint32_t i = first; i < std::min(rays, first + rays_per_block); ++i) {
+                    trace_forward(phase, RandomPurpose::secondary, i, Reach::whole_path, nullptr,
+                                  tallies[block], [&](const Photon& photon) {
+                                      ++hits[block];
+                                      map.find(photon, deposits[block]);
+                                  });
+                }
+            });
+            std::array<std::uint64_t, BackwardMap::parts> applied{};
+            for_each_block(BackwardMap::parts, threads_,
+                           [&](std::size_t part) { applied[part] = map.apply(part, deposits); });
+            for (std::uint32_t block = 0; block < count; ++block) {
+                tally += tallies[block];
+                counts_.scattering_hits += hits[block];
+            }
+            for (const std::uint64_t deposited : applied) counts_.deposits += deposited;
+        }
+        counts_.secondary_rays += rays;
+        counts_.forward_segments += tally.segments;
+    }
+
+    void fold_tally(const ForwardTally& tally) {
+        const double rays = forward_rays_;
+        for (std::size_t i = 0; i < stage_.parts().receivers.size(); ++i) {
+            const ObjectId object = stage_.parts().receivers[i].object;
+            received_[2 * i].add(tally.received_front[object] / rays);
+            received_[2 * i + 1].add(tally.received_back[object] / rays);
+        }
+        total_ += tally;
+    }
+
+    FluxBalance balance() const {
+        const SceneParts& parts = stage_.parts();
+        const double scale = 1.0 / (static_cast<double>(forward_rays_) * std::max(1u, phases_));
+        FluxBalance balance;
+        balance.emitted = total_.emitted * scale;
+        balance.escaped = total_.escaped * scale;
+        balance.trapped = total_.trapped * scale;
+        balance.inconsistent_medium = total_.inconsistent * scale;
+        balance.numerical = total_.numerical * scale;
+        balance.roulette_residue = total_.residue * scale;
+        for (std::size_t i = 0; i < parts.objects.size(); ++i) {
+            const Object& object = parts.objects[i];
+            if (total_.absorbed_by_object[i] != 0.0) {
+                balance.absorbed[object.material] += total_.absorbed_by_object[i] * scale;
+            }
+            if (object.interior && total_.absorbed_by_solid[i] != 0.0) {
+                balance.absorbed["inside " + parts.media[*object.interior].name] +=
+                    total_.absorbed_by_solid[i] * scale;
+            }
+        }
+        return balance;
+    }
+
+    void add_warnings(Result& result) const {
+        const FluxBalance& flux = result.flux_balance_lm;
+        if (flux.inconsistent_medium > 1e-6 * flux.emitted) {
+            result.warnings.push_back(
+                "light was lost where transparent solids contradict each other: check for solids "
+                "that share a face or are not closed");
+        }
+        if (flux.numerical > 0.0) result.warnings.push_back("light was lost to undefined numbers");
+        if (settings_.method == Method::path && stage_.has_caustics()) {
+            result.warnings.push_back(
+                "path tracing does not see light of points and beams behind specular surfaces");
+        }
+    }
+
+    Settings settings_;
+    Stage stage_;
+    int threads_;
+    SensorPlanes planes_;
+    Readings readings_;
+    Collection collection_;
+    std::uint32_t forward_rays_;
+    std::optional<Radii> seen_radii_, hidden_radii_;  // of the first phase
+    ForwardTally total_;                              // over phases
+    std::vector<Estimate> received_;                  // per receiver: front, back
+    RayCounts counts_;
+    std::uint64_t forward_map_bytes = 0, backward_map_bytes = 0;
+    std::uint32_t phases_ = 0;
+};
+
+Settings with_default_target(Settings settings) {
+    if (!settings.image_accuracy && !settings.sensor_accuracy && !settings.time_limit_s &&
+        !settings.max_phases) {
+        settings.image_accuracy = 0.02;
+        settings.sensor_accuracy = 0.01;
+    }
+    return settings;
+}
+
+}  // namespace
+
+double FluxBalance::closure() const {
+    double rest = emitted - escaped - trapped - inconsistent_medium - numerical - roulette_residue;
+    for (const auto& [name, flux] : absorbed) rest -= flux;
+    return rest;
+}
+
+Result simulate(const SceneParts& parts, const Settings& asked,
+                const std::function<void(const Progress&)>& on_progress,
+                const std::atomic<bool>* interrupted) {
+    const Stopwatch watch;
+    const Settings settings = with_default_target(asked);
+    Simulation simulation(parts, settings);
+    const auto is_camera = [](const Observer& o) { return std::holds_alternative<Camera>(o); };
+    const bool has_cameras = std::any_of(parts.observers.begin(), parts.observers.end(), is_camera);
+    const bool has_sensors =
+        !parts.receivers.empty() ||
+        !std::all_of(parts.observers.begin(), parts.observers.end(), is_camera);
+    StopRule rule(settings, has_cameras, has_sensors);
+
+    std::string stopped_by;
+    std::uint32_t phase = 0;
+    while (stopped_by.empty()) {
+        simulation.run_phase(phase++);
+        const double elapsed_s = watch.seconds();
+        stopped_by = rule.check(phase, simulation.readings(), simulation.worst_receiver_error(),
+                                elapsed_s);
+        if (stopped_by.empty() && interrupted && interrupted->load()) stopped_by = "interruption";
+        if (on_progress) {
+            const RayCounts& counts = simulation.counts();
+            const double rays = static_cast<double>(counts.backward_segments +
+                                                    counts.forward_segments +
+                                                    counts.shadow_segments);
+            on_progress({.phase = phase,
+                         .delta = phase > 1 ? simulation.readings().delta() : std::nan(""),
+                         .delta_wanted = has_cameras ? settings.image_accuracy : std::nullopt,
+                         .rays_per_s = rays / elapsed_s,
+                         .elapsed_s = elapsed_s,
+                         .left_s = rule.left_s(simulation.readings(), elapsed_s)});
+        }
+    }
+    Result result = simulation.result();
+    result.stopped_by = stopped_by;
+    result.accuracy_reached = rule.accuracy_reached();
+    result.wall_s = watch.seconds();
+    return result;
+}
+
+}  // namespace lucerna::optics

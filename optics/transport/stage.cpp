@@ -1,0 +1,116 @@
+#include "optics/transport/stage.h"
+
+#include <fmt/format.h>
+
+#include "core/diagnostics.h"
+#include "spectral/photometry.h"
+
+namespace lucerna::optics {
+namespace {
+
+std::vector<Shape> shapes_of(const SceneParts& parts) {
+    std::vector<Shape> shapes;
+    shapes.reserve(parts.objects.size());
+    for (const Object& object : parts.objects) shapes.push_back(object.shape);
+    return shapes;
+}
+
+// Sum of the spectral fluxes of all lights, on a 1 nm grid.
+spectral::Spectrum total_emission(const SceneParts& parts) {
+    std::vector<double> wavelengths_nm;
+    std::vector<double> values;
+    for (double nm = spectral::min_wavelength_nm; nm <= spectral::max_wavelength_nm; nm += 1.0) {
+        double sum = 0.0;
+        for (const Light& light : parts.lights) sum += parts.spectra[light.flux_w_per_nm].at(nm);
+        wavelengths_nm.push_back(nm);
+        values.push_back(sum);
+    }
+    return {std::move(wavelengths_nm), std::move(values), spectral::Outside::zero};
+}
+
+std::vector<double> luminous_fluxes(const SceneParts& parts) {
+    std::vector<double> fluxes;
+    for (const Light& light : parts.lights) fluxes.push_back(light.luminous_flux_lm);
+    return fluxes;
+}
+
+const SceneParts& checked(const SceneParts& parts) {
+    Diagnostics diagnostics;
+    if (parts.lights.empty()) diagnostics.add({}, "the scene has no light; expected at least one");
+    if (parts.objects.empty()) diagnostics.add({}, "the scene has no object; expected at least one");
+    if (parts.observers.empty() && parts.receivers.empty()) {
+        diagnostics.add({}, "the scene has nothing that measures; expected a camera or a sensor");
+    }
+    for (const Light& light : parts.lights) {
+        if (!(light.luminous_flux_lm > 0.0) || !std::isfinite(light.luminous_flux_lm)) {
+            diagnostics.add({}, fmt::format("light \"{}\" has a luminous flux of {} lm; expected a "
+                                            "positive number",
+                                            light.name, light.luminous_flux_lm));
+        }
+    }
+    for (const Object& object : parts.objects) {
+        if (object.interior && !is_solid(object.shape)) {
+            diagnostics.add({}, fmt::format("object \"{}\" has a medium inside but is not a closed, "
+                                            "outward oriented solid",
+                                            object.name));
+        }
+    }
+    diagnostics.throw_if_any();
+    return parts;
+}
+
+}  // namespace
+
+Stage::Stage(const SceneParts& parts)
+    : parts_(checked(parts)),
+      caster_(shapes_of(parts)),
+      wavelengths_(total_emission(parts)),
+      light_of_object_(parts.objects.size(), no_light),
+      light_choice_(luminous_fluxes(parts)) {
+    for (std::uint32_t i = 0; i < parts_.lights.size(); ++i) {
+        const ObjectId object = emitting_object(parts_.lights[i].source);
+        if (object == no_object) continue;
+        if (light_of_object_[object] != no_light) {
+            throw InputError({}, fmt::format("object \"{}\" carries two lights; expected one",
+                                             parts_.objects[object].name));
+        }
+        light_of_object_[object] = i;
+    }
+    const SpectrumId white = parts_.add(spectral::Spectrum(1.0));
+    const SpectrumId none = parts_.add(spectral::Spectrum(0.0));
+    white_diffuser_ = parts_.add(Bsdf{Diffuse{white, none}});
+    for (const Bsdf& bsdf : parts_.bsdfs) {
+        scatters_.push_back(has_scattering_lobe(bsdf, parts_.bsdfs));
+    }
+    patch_offset_.push_back(0);
+    for (ObjectId id = 0; id < parts_.objects.size(); ++id) {
+        const Object& object = parts_.objects[id];
+        const std::uint32_t patches = optics::patch_count(object.shape);
+        patch_offset_.push_back(patch_offset_.back() + patches);
+        for (std::uint32_t patch = 0; patch < patches; ++patch) {
+            patch_areas_m2_.push_back(optics::patch_area_m2(object.shape, patch));
+        }
+        if (object.interior) solids_.push_back(id);
+        for (const BsdfId side : {object.front, object.back}) {
+            if (side == pass_through) {
+                has_null_surfaces_ = true;
+            } else if (has_specular_lobe(parts_.bsdfs[side], parts_.bsdfs)) {
+                has_caustics_ = true;
+            }
+        }
+    }
+    // Where solids overlap, the surface of the weaker one inside the stronger does not act.
+    has_null_surfaces_ = has_null_surfaces_ || solids_.size() > 1;
+}
+
+MediumStack Stage::media_at(const Vec3& point) const {
+    MediumStack stack;
+    for (const ObjectId solid : solids_) {
+        if (contains(parts_.objects[solid].shape, point) && !stack.enter(solid)) {
+            throw InputError({}, "more than 12 transparent solids overlap in one point");
+        }
+    }
+    return stack;
+}
+
+}  // namespace lucerna::optics

@@ -1,0 +1,66 @@
+// A scene made ready for simulation: what does not change from phase to phase.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/sampling.h"
+#include "optics/scene.h"
+#include "optics/transport/medium_stack.h"
+#include "spectral/wavelength_set.h"
+
+namespace lucerna::optics {
+
+inline constexpr std::uint32_t no_light = ~0u;
+
+class Stage {
+public:
+    /// Throws InputError if the parts contradict each other.
+    explicit Stage(const SceneParts& parts);
+
+    const SceneParts& parts() const { return parts_; }
+    const RayCaster& caster() const { return caster_; }
+    const spectral::WavelengthSampler& wavelengths() const { return wavelengths_; }
+
+    /// The light on an object's surface, or no_light.
+    std::uint32_t light_of(ObjectId object) const { return light_of_object_[object]; }
+    /// Chooses lights in proportion to their luminous flux.
+    const DiscreteDistribution& light_choice() const { return light_choice_; }
+
+    /// Number of a patch among the patches of all objects.
+    std::uint32_t patch_index(const SurfacePoint& p) const {
+        return patch_offset_[p.object] + p.patch;
+    }
+    std::uint32_t patch_count() const { return patch_offset_.back(); }
+    double patch_area_m2(std::uint32_t patch) const { return patch_areas_m2_[patch]; }
+
+    /// The virtual surface of illuminance points: Lambertian, reflectance 1.
+    BsdfId white_diffuser() const { return white_diffuser_; }
+    bool scatters(BsdfId bsdf) const { return scatters_[bsdf]; }
+    /// True if light can reach a scattering surface by specular events only: else no caustic map.
+    bool has_caustics() const { return has_caustics_; }
+    /// True if a straight line can cross surfaces that do not act on light.
+    bool has_null_surfaces() const { return has_null_surfaces_; }
+
+    /// The solids with a medium that hold the point.
+    MediumStack media_at(const Vec3& point) const;
+
+    /// A length that is small against the scene but far above rounding [m].
+    double nudge_m() const { return 1e-8 * caster_.scene_radius_m(); }
+
+private:
+    SceneParts parts_;
+    RayCaster caster_;
+    spectral::WavelengthSampler wavelengths_;
+    std::vector<std::uint32_t> light_of_object_;
+    DiscreteDistribution light_choice_;
+    std::vector<std::uint32_t> patch_offset_;  // one more than objects
+    std::vector<double> patch_areas_m2_;
+    std::vector<bool> scatters_;
+    std::vector<ObjectId> solids_;  // objects with an interior
+    BsdfId white_diffuser_ = 0;
+    bool has_caustics_ = false;
+    bool has_null_surfaces_ = false;
+};
+
+}  // namespace lucerna::optics

@@ -27,22 +27,45 @@ struct WavelengthSet {
     Lanes at(const Spectrum& spectrum) const;
 };
 
-/// Draws the wavelength set of each phase from a density that follows the photometric weight of the
-/// scene's emission, with a defensive uniform part so that no wavelength is missed.
+/// Whether paths of the scene are split by wavelength, so that the hero lane carries the estimate.
+enum class Dispersion { none, present };
+
+/// Draws the wavelength set of each phase from a density that follows the scene's emission, seen by
+/// the eye:
+///
+///   p = a [emission V] + b [emission (x-bar + y-bar + z-bar)] + c [emission] + d [uniform],
+///
+/// where [ ] is a function scaled to area 1. V serves luminance, the colour-matching functions keep
+/// colour from being noisier than luminance, the emission itself serves spectral results, and the
+/// uniform part makes sure that no wavelength is missed.
+///
+/// Without dispersion (a b c d) = (0.40 0.40 0.18 0.02): the sum over the strata is smooth in their
+/// shift, so that the luminance of a grey scene varies from phase to phase by 0.3 to 1.4 % for
+/// CIE E, A, LED-B3, LED-RGB1 and FL11, X by 1.4 to 3.3 % and Z by 4 to 18 %. More weight on V
+/// would not steady luminance (0.8 0.15 0 0.05: 1.0 to 1.8 %) but makes Z three to five times as
+/// noisy. With dispersion one wavelength stands for all, and what counts is how much emission V / p
+/// varies over the spectrum: (0.80 0.10 0.08 0.02) halves that, from about 47 % to 25 %.
 class WavelengthSampler {
 public:
-    /// @param emission  spectral radiant flux of all lights together [any scale], not all zero.
-    explicit WavelengthSampler(const Spectrum& emission);
+    /// @param emission  spectral radiant flux of all lights together [any scale].
+    /// Throws std::invalid_argument if it is negative anywhere in 360-830 nm or zero everywhere.
+    explicit WavelengthSampler(const Spectrum& emission, Dispersion dispersion = Dispersion::none);
 
-    /// Wavelengths of a phase: sorted strata of equal probability, shifted by one number per phase
-    /// that follows a randomised low-discrepancy sequence over the phases; hero lane uniform,
-    /// likewise equidistributed over phases. Depends on (seed, phase) only.
+    /// Wavelengths of a phase, in increasing order; depends on (seed, phase) only.
+    ///
+    /// The phase draws one number U in [0, 1), uniform over seeds. The stratum that 16 U falls into
+    /// is the hero lane, and the rest of 16 U is the shift common to all strata: two independent
+    /// uniform numbers. Over the phases U walks in steps of (11 + 1/phi) / 16, phi the golden
+    /// ratio: the shifts are then the golden ratio sequence, and hero and shift together fill
+    /// [0, 1) evenly as well (star discrepancy below 2.7 / n for n phases; 11 is the best of 0-15).
     WavelengthSet sample(std::uint64_t seed, std::uint32_t phase) const;
 
-    /// Density per nm at a wavelength; integrates to 1 over [360, 830] nm.
+    /// Density per nm at a wavelength; integrates to 1 over [360, 830] nm, zero outside.
     double pdf_per_nm(double wavelength_nm) const;
 
 private:
+    double quantile_nm(double probability) const;
+
     std::vector<double> density_;     // per nm at 1 nm nodes, piecewise linear
     std::vector<double> cumulative_;  // at the nodes
 };

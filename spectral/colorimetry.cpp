@@ -1,0 +1,144 @@
+#include "spectral/colorimetry.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "spectral/illuminants.h"
+#include "spectral/integral.h"
+#include "spectral/observer.h"
+
+namespace lucerna::spectral {
+namespace {
+
+// The locus is searched in reciprocal temperature, in which its points lie nearly evenly.
+constexpr double min_mired = 10.0;    // 100 000 K
+constexpr double max_mired = 1000.0;  // 1000 K
+constexpr double max_duv = 0.05;      // CIE 15:2018, 9.5
+
+double temperature_k(double mired) {
+    return 1e6 / mired;
+}
+
+// A sum over the nodes that the observer and planck() share, as CIE 15:2018, 7.1 recommends.
+UniformChromaticity black_body_1960(double mired) {
+    const std::vector<double> radiance = planck(temperature_k(mired)).values();
+    const auto sum = [&](const Spectrum& observer) {
+        return std::inner_product(radiance.begin(), radiance.end(), observer.values().begin(), 0.0);
+    };
+    return *chromaticity_1960({sum(x_bar()), sum(v_lambda()), sum(z_bar())});
+}
+
+double distance(UniformChromaticity a, UniformChromaticity b) {
+    return std::hypot(a.u - b.u, a.v - b.v);
+}
+
+struct LocusPoint {
+    double mired;
+    UniformChromaticity uv;
+};
+
+// Points of the locus dense enough to enclose the one minimum between neighbours of the nearest.
+const std::vector<LocusPoint>& locus() {
+    static const std::vector<LocusPoint> points = [] {
+        std::vector<LocusPoint> list;
+        for (double mired = min_mired; mired <= max_mired; mired += 10.0) {
+            list.push_back({mired, black_body_1960(mired)});
+        }
+        return list;
+    }();
+    return points;
+}
+
+// Golden section search for the minimum of a function with one minimum in the interval.
+template <typename Function>
+double minimum(const Function& function, double low, double high, double tolerance) {
+    const double golden = (std::sqrt(5.0) - 1.0) / 2.0;
+    double left = high - golden * (high - low);
+    double right = low + golden * (high - low);
+    double at_left = function(left);
+    double at_right = function(right);
+    while (high - low > tolerance) {
+        if (at_left < at_right) {
+            high = right;
+            right = left;
+            at_right = at_left;
+            left = high - golden * (high - low);
+            at_left = function(left);
+        } else {
+            low = left;
+            left = right;
+            at_left = at_right;
+            right = low + golden * (high - low);
+            at_right = function(right);
+        }
+    }
+    return 0.5 * (low + high);
+}
+
+}  // namespace
+
+Xyz tristimulus(const Spectrum& spectral) {
+    constexpr double k_m = max_luminous_efficacy_lm_per_w;
+    return {k_m * integral_of_product(spectral, x_bar()),
+            k_m * integral_of_product(spectral, v_lambda()),
+            k_m * integral_of_product(spectral, z_bar())};
+}
+
+std::optional<Chromaticity> chromaticity(const Xyz& colour) {
+    const double sum = colour.x + colour.y + colour.z;
+    if (!(sum > 0.0)) return std::nullopt;
+    return Chromaticity{colour.x / sum, colour.y / sum};
+}
+
+std::optional<UniformChromaticity> chromaticity_1976(const Xyz& colour) {
+    const double sum = colour.x + 15.0 * colour.y + 3.0 * colour.z;
+    if (!(sum > 0.0)) return std::nullopt;
+    return UniformChromaticity{4.0 * colour.x / sum, 9.0 * colour.y / sum};
+}
+
+std::optional<UniformChromaticity> chromaticity_1960(const Xyz& colour) {
+    std::optional<UniformChromaticity> uv = chromaticity_1976(colour);
+    if (uv) uv->v *= 2.0 / 3.0;
+    return uv;
+}
+
+std::optional<ColourTemperature> correlated_colour_temperature(const Xyz& colour) {
+    const std::optional<UniformChromaticity> uv = chromaticity_1960(colour);
+    if (!uv) return std::nullopt;
+
+    const std::vector<LocusPoint>& points = locus();
+    std::size_t nearest = 0;
+    for (std::size_t i = 1; i < points.size(); ++i) {
+        if (distance(*uv, points[i].uv) < distance(*uv, points[nearest].uv)) nearest = i;
+    }
+    const double low = points[nearest == 0 ? 0 : nearest - 1].mired;
+    const double high = points[std::min(nearest + 1, points.size() - 1)].mired;
+
+    const auto distance_to = [&](double mired) { return distance(*uv, black_body_1960(mired)); };
+    const double mired = minimum(distance_to, low, high, 1e-6);
+    const double duv = distance_to(mired);
+    const bool at_an_end = mired < min_mired + 1e-3 || mired > max_mired - 1e-3;
+    if (at_an_end || duv > max_duv) return std::nullopt;
+    return ColourTemperature{temperature_k(mired),
+                             std::copysign(duv, uv->v - black_body_1960(mired).v)};
+}
+
+const Eigen::Matrix3d& linear_srgb_from_xyz() {
+    static const Eigen::Matrix3d matrix = [] {
+        const auto direction = [](double x, double y) {
+            return Eigen::Vector3d(x / y, 1.0, (1.0 - x - y) / y);
+        };
+        Eigen::Matrix3d primaries;
+        primaries.col(0) = direction(0.64, 0.33);
+        primaries.col(1) = direction(0.30, 0.60);
+        primaries.col(2) = direction(0.15, 0.06);
+        const Eigen::Vector3d luminances = primaries.inverse() * direction(0.3127, 0.3290);
+        return Eigen::Matrix3d((primaries * luminances.asDiagonal()).inverse());
+    }();
+    return matrix;
+}
+
+}  // namespace lucerna::spectral

@@ -1,0 +1,276 @@
+#include "spectral/wavelength_set.h"
+
+#include <algorithm>
+#include <array>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <functional>
+#include <set>
+#include <stdexcept>
+
+#include "core/statistics.h"
+#include "reference_table.h"
+#include "spectral/illuminants.h"
+
+using namespace lucerna;
+using namespace lucerna::spectral;
+using Catch::Matchers::WithinAbs;
+using Catch::Matchers::WithinRel;
+
+namespace {
+
+constexpr double k_m = 683.002;
+
+struct Colour {
+    double luminance = 0.0;
+    double x = 0.0;
+    double z = 0.0;
+};
+
+// Direct quadrature: midpoint rule at 0.01 nm with the tables read by the test.
+Colour by_quadrature(const Spectrum& spectrum) {
+    static const auto cmf = reference_table("cie1931_2deg_cmf_1nm.csv");
+    static const auto v = reference_table("cie1924_V_1nm.csv").at("V");
+    Colour sum;
+    for (int nm = 360; nm < 830; ++nm) {
+        for (int i = 0; i < 100; ++i) {
+            const double t = (i + 0.5) / 100.0;
+            const auto at = [&](const std::map<int, double>& table) {
+                return table.at(nm) * (1.0 - t) + table.at(nm + 1) * t;
+            };
+            const double value = spectrum.at(nm + t) * k_m / 100.0;
+            sum.luminance += value * at(v);
+            sum.x += value * at(cmf.at("xbar"));
+            sum.z += value * at(cmf.at("zbar"));
+        }
+    }
+    return sum;
+}
+
+Colour by_phase(const WavelengthSet& set, const Spectrum& spectrum) {
+    const Lanes radiance = set.at(spectrum);
+    return {static_cast<double>((radiance * set.luminance).sum()),
+            static_cast<double>((radiance * set.x).sum()),
+            static_cast<double>((radiance * set.z).sum())};
+}
+
+// Standard deviation over phases relative to the mean.
+double spread(const Estimate& estimate) {
+    return estimate.standard_error() * std::sqrt(static_cast<double>(estimate.count())) /
+           estimate.mean();
+}
+
+double star_discrepancy(std::vector<double> points) {
+    std::sort(points.begin(), points.end());
+    const auto n = static_cast<double>(points.size());
+    double worst = 0.0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const auto rank = static_cast<double>(i);
+        worst = std::max({worst, (rank + 1.0) / n - points[i], points[i] - rank / n});
+    }
+    return worst;
+}
+
+const Spectrum red_paint({360.0, 560.0, 620.0, 830.0}, {0.05, 0.08, 0.75, 0.85}, Outside::hold);
+const Spectrum laser_line({531.8, 532.0, 532.2}, {0.0, 1.0, 0.0}, Outside::zero);
+
+}  // namespace
+
+TEST_CASE("The density is normalised and positive", "[property]") {
+    const auto dispersion = GENERATE(Dispersion::none, Dispersion::present);
+    const char* name = GENERATE("E", "A", "FL11", "LED-RGB1", "HP1");
+    const WavelengthSampler sampler(*illuminant(name), dispersion);
+    double area = 0.0;
+    double least = 1.0;
+    for (int i = 0; i < 47000; ++i) {
+        const double pdf = sampler.pdf_per_nm(360.0 + (i + 0.5) * 0.01);
+        area += pdf * 0.01;
+        least = std::min(least, pdf);
+    }
+    CHECK_THAT(area, WithinAbs(1.0, 1e-9));
+    CHECK(least > 0.019 / 470.0);
+    CHECK(sampler.pdf_per_nm(359.9) == 0.0);
+    CHECK(sampler.pdf_per_nm(830.1) == 0.0);
+}
+
+TEST_CASE("The wavelengths of a phase lie one in each stratum, at one shift", "[property]") {
+    const WavelengthSampler sampler(*illuminant("LED-B3"));
+    for (std::uint32_t phase = 0; phase < 40; ++phase) {
+        const WavelengthSet set = sampler.sample(7, phase);
+        double first_shift = -1.0;
+        double probability = 0.0;
+        double from_nm = 360.0;
+        for (int k = 0; k < lane_count; ++k) {
+            const double to_nm = set.wavelength_nm[static_cast<std::size_t>(k)];
+            REQUIRE(to_nm >= from_nm);
+            const int steps = 4000;  // midpoint rule for the probability below the wavelength
+            for (int i = 0; i < steps; ++i) {
+                const double width_nm = (to_nm - from_nm) / steps;
+                probability += sampler.pdf_per_nm(from_nm + (i + 0.5) * width_nm) * width_nm;
+            }
+            from_nm = to_nm;
+            const double shift = probability * lane_count - k;
+            if (k == 0) first_shift = shift;
+            CHECK(shift > -1e-4);
+            CHECK(shift < 1.0 + 1e-4);
+            CHECK_THAT(shift, WithinAbs(first_shift, 1e-4));
+            CHECK_THAT(static_cast<double>(set.interval_nm[k]),
+                       WithinRel(1.0 / (16.0 * sampler.pdf_per_nm(to_nm)), 1e-6));
+        }
+    }
+}
+
+TEST_CASE("Luminance and colour are unbiased and steady from phase to phase", "[statistical]") {
+    struct Case {
+        const char* name;
+        double luminance_spread;
+        double x_spread;
+        double z_spread;
+    };
+    // Spreads by quadrature over the shift, rounded up (see wavelength_set.h).
+    const Case row = GENERATE(Case{"E", 0.007, 0.03, 0.06}, Case{"A", 0.006, 0.02, 0.22},
+                              Case{"LED-B3", 0.006, 0.03, 0.14},
+                              Case{"LED-RGB1", 0.014, 0.03, 0.21}, Case{"FL11", 0.017, 0.04, 0.08});
+    INFO(row.name);
+    const Spectrum emission = *illuminant(row.name);
+    const WavelengthSampler sampler(emission);
+    const Colour truth = by_quadrature(emission);
+
+    Estimate luminance;
+    Estimate x;
+    Estimate z;
+    for (std::uint32_t phase = 0; phase < 4000; ++phase) {
+        const Colour found = by_phase(sampler.sample(11, phase), emission);
+        luminance.add(found.luminance);
+        x.add(found.x);
+        z.add(found.z);
+    }
+    CHECK(spread(luminance) < row.luminance_spread);
+    CHECK(spread(x) < row.x_spread);
+    CHECK(spread(z) < row.z_spread);
+    // The low-discrepancy shifts leave far less than spread / sqrt(4000); floats leave 1e-6.
+    CHECK_THAT(luminance.mean(), WithinRel(truth.luminance, 1e-4));
+    CHECK_THAT(x.mean(), WithinRel(truth.x, 2e-4));
+    CHECK_THAT(z.mean(), WithinRel(truth.z, 5e-4));
+    // The twin that must fail: the uniform weight instead of 1 / (N p).
+    Estimate wrong;
+    for (std::uint32_t phase = 0; phase < 100; ++phase) {
+        WavelengthSet set = sampler.sample(11, phase);
+        set.luminance *= 470.0f / 16.0f / set.interval_nm;
+        wrong.add(by_phase(set, emission).luminance);
+    }
+    CHECK(std::abs(wrong.mean() / truth.luminance - 1.0) > 0.1);
+}
+
+TEST_CASE("Light that is not the sum of all lights is unbiased too", "[statistical]") {
+    const WavelengthSampler sampler(*illuminant("LED-RGB1"));
+    const Spectrum& reflected = GENERATE(true, false) ? red_paint : laser_line;
+    const Colour truth = by_quadrature(reflected);
+    Estimate luminance;
+    for (std::uint32_t phase = 0; phase < 20000; ++phase) {
+        luminance.add(by_phase(sampler.sample(3, phase), reflected).luminance);
+    }
+    CHECK_THAT(luminance.mean(), WithinRel(truth.luminance, 0.01));
+}
+
+TEST_CASE("A single line of emission is found", "[statistical]") {
+    const Spectrum between_nodes({500.2, 500.4}, {1.0, 1.0}, Outside::zero);
+    const Spectrum& emission = GENERATE(true, false) ? laser_line : between_nodes;
+    const WavelengthSampler sampler(emission);
+    const Colour truth = by_quadrature(emission);
+    Estimate luminance;
+    for (std::uint32_t phase = 0; phase < 4000; ++phase) {
+        luminance.add(by_phase(sampler.sample(5, phase), emission).luminance);
+    }
+    // The 1 nm grid of the density spreads the line over 2 nm, which costs some noise only.
+    CHECK(spread(luminance) < 0.4);
+    CHECK_THAT(luminance.mean(), WithinRel(truth.luminance, 0.01));
+}
+
+TEST_CASE("The hero lane alone estimates luminance without bias", "[statistical]") {
+    const auto dispersion = GENERATE(Dispersion::none, Dispersion::present);
+    const Spectrum emission = *illuminant(GENERATE("E", "LED-B3"));
+    const WavelengthSampler sampler(emission, dispersion);
+    const Colour truth = by_quadrature(emission);
+    Estimate luminance;
+    for (std::uint32_t phase = 0; phase < 4096; ++phase) {
+        const WavelengthSet set = sampler.sample(17, phase);
+        const Lanes contribution = set.at(emission) * set.luminance;
+        luminance.add(static_cast<double>(lane_count * contribution[set.hero]));
+    }
+    CHECK_THAT(luminance.mean(), WithinRel(truth.luminance, 2e-3));
+    CHECK(spread(luminance) < (dispersion == Dispersion::present ? 0.30 : 0.65));
+}
+
+TEST_CASE("Hero and shift fill the unit square evenly over phases", "[statistical]") {
+    const WavelengthSampler flat(Spectrum(1.0));
+    const std::uint64_t seed = GENERATE(1u, 2u, 99u);
+    // The position of the hero wavelength among all probabilities, from the density by counting up.
+    std::vector<double> cumulative = {0.0};
+    for (int i = 0; i < 47000; ++i) {
+        cumulative.push_back(cumulative.back() + 0.01 * flat.pdf_per_nm(360.0 + (i + 0.5) * 0.01));
+    }
+    std::vector<double> hero_positions;
+    std::vector<double> shifts;
+    std::set<int> heroes;
+    for (std::uint32_t phase = 0; phase < 1024; ++phase) {
+        const WavelengthSet set = flat.sample(seed, phase);
+        REQUIRE(set.hero >= 0);
+        REQUIRE(set.hero < lane_count);
+        const double wavelength_nm = set.wavelength_nm[static_cast<std::size_t>(set.hero)];
+        const auto node = static_cast<std::size_t>((wavelength_nm - 360.0) / 0.01);
+        hero_positions.push_back(cumulative[node]);
+        shifts.push_back(hero_positions.back() * lane_count - set.hero);
+        if (phase < 48) heroes.insert(set.hero);
+        if (phase == 63 || phase == 255 || phase == 1023) {
+            const double n = phase + 1.0;
+            CHECK(star_discrepancy(hero_positions) < 4.0 / n);  // random: about 0.6 / sqrt(n)
+            CHECK(star_discrepancy(shifts) < 4.0 / n + 2e-3);
+        }
+    }
+    CHECK(heroes.size() == lane_count);  // each lane leads within 48 phases
+}
+
+TEST_CASE("Over seeds, hero and shift of one phase are uniform and independent", "[statistical]") {
+    const WavelengthSampler sampler(Spectrum(1.0));
+    // Chi-square over 16 heroes x 4 quarters of the shift, 6400 seeds: 63 degrees of freedom.
+    // alpha = 1e-6: 63 + 4.75 sqrt(126) + ... = 128 (Wilson-Hilferty).
+    std::array<int, 64> counts{};
+    for (std::uint64_t seed = 0; seed < 6400; ++seed) {
+        const WavelengthSet set = sampler.sample(seed, 5);
+        double probability = 0.0;  // below the first wavelength: shift / 16
+        const double width_nm = (set.wavelength_nm[0] - 360.0) / 200.0;
+        for (int i = 0; i < 200; ++i) {
+            probability += sampler.pdf_per_nm(360.0 + (i + 0.5) * width_nm) * width_nm;
+        }
+        const int quarter = std::clamp(static_cast<int>(probability * 64.0), 0, 3);
+        ++counts[static_cast<std::size_t>(set.hero * 4 + quarter)];
+    }
+    double chi_square = 0.0;
+    for (const int count : counts) chi_square += (count - 100.0) * (count - 100.0) / 100.0;
+    CHECK(chi_square < 128.0);
+}
+
+TEST_CASE("A set depends on seed and phase only", "[property]") {
+    const WavelengthSampler one(*illuminant("D65"));
+    const WavelengthSampler two(*illuminant("D65"));
+    CHECK(one.sample(4, 1000).wavelength_nm == two.sample(4, 1000).wavelength_nm);
+    CHECK(one.sample(4, 1000).wavelength_nm != one.sample(4, 1001).wavelength_nm);
+    CHECK(one.sample(4, 1000).wavelength_nm != one.sample(5, 1000).wavelength_nm);
+    CHECK(one.sample(4, 4294967295u).wavelength_nm[0] >= 360.0);
+}
+
+TEST_CASE("The scale of the emission does not matter", "[property]") {
+    const Spectrum emission = *illuminant("D65");
+    const WavelengthSampler one(emission);
+    const WavelengthSampler two(emission.scaled(1e-9));
+    CHECK_THAT(one.pdf_per_nm(500.0), WithinRel(two.pdf_per_nm(500.0), 1e-12));
+}
+
+TEST_CASE("An emission without visible light is refused", "[unit]") {
+    CHECK_THROWS_AS(WavelengthSampler(Spectrum(0.0)), std::invalid_argument);
+    CHECK_THROWS_AS(WavelengthSampler(Spectrum({850.0, 900.0}, {1.0, 1.0}, Outside::zero)),
+                    std::invalid_argument);
+    CHECK_THROWS_AS(WavelengthSampler(Spectrum({400.0, 500.0}, {1.0, -1.0}, Outside::hold)),
+                    std::invalid_argument);
+}

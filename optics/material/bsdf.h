@@ -1,7 +1,7 @@
 // Scattering at surfaces: the bidirectional scattering distribution function (BSDF).
 //
-// Conventions. Directions are unit vectors in the local frame whose z axis is the geometric normal of
-// the surface, and point away from it. `wo` is the direction already known (toward the previous
+// Conventions. Directions are unit vectors in the local frame whose z axis is the geometric normal
+// of the surface, and point away from it. `wo` is the direction already known (toward the previous
 // vertex of the path), `wi` the one asked for or sampled. A BSDF value f is in 1/sr and does not
 // contain the cosine.
 #pragma once
@@ -30,8 +30,8 @@ using BsdfId = std::uint32_t;
 
 /// Absorbs everything.
 struct Black {};
-/// Lambertian reflection and transmission: f = reflectance / pi on the side of wo, transmittance / pi
-/// on the other. reflectance + transmittance <= 1 at every wavelength.
+/// Lambertian reflection and transmission: f = reflectance / pi on the side of wo, transmittance /
+/// pi on the other. reflectance + transmittance <= 1 at every wavelength.
 struct Diffuse {
     SpectrumId reflectance;
     SpectrumId transmittance;
@@ -44,7 +44,8 @@ struct Mirror {
 struct SmoothConductor {
     SpectrumId n, k;
 };
-/// Rough metal: GGX microfacets (Walter et al. 2007; visible normals: Heitz 2018), single scattering.
+/// Rough metal: GGX microfacets (Walter et al. 2007; visible normals: Heitz 2018), single
+/// scattering.
 struct RoughConductor {
     SpectrumId n, k;
     double roughness;  ///< GGX alpha, > 0
@@ -81,20 +82,20 @@ enum class Transport {
 
 /// What a BSDF needs to know of the place where it is evaluated.
 struct SurfaceOptics {
-    const std::vector<Bsdf>& bsdfs;       ///< of the scene, for mixtures
-    const PhaseSpectra& spectra;          ///< spectra of the scene on the lanes of this phase
+    const std::vector<Bsdf>& bsdfs;  ///< of the scene, for mixtures
+    const PhaseSpectra& spectra;     ///< spectra of the scene on the lanes of this phase
     const spectral::WavelengthSet& wavelengths;
-    Lanes index_above;                    ///< index of refraction on the side of +z
-    Lanes index_below;                    ///< and on the side of -z
-    bool dispersive = false;              ///< an index differs between the lanes
-    bool hero_only = false;               ///< only the hero lane of this path still counts
+    Lanes index_above;        ///< index of refraction on the side of +z
+    Lanes index_below;        ///< and on the side of -z
+    bool dispersive = false;  ///< an index differs between the lanes
+    bool hero_only = false;   ///< only the hero lane of this path still counts
 };
 
 /// One sampled event.
 struct BsdfSample {
     Vec3 wi;
-    Lanes weight;              ///< f |cos| / density, divided by the probability of the lobe chosen
-    bool specular = false;     ///< a delta lobe; then pdf_solid_angle is 0 and not used
+    Lanes weight;           ///< f |cos| / density, divided by the probability of the lobe chosen
+    bool specular = false;  ///< a delta lobe; then pdf_solid_angle is 0 and not used
     double pdf_solid_angle = 0.0;  ///< density of wi among all scattering lobes, [1/sr]
     /// The refraction differed between wavelengths: all lanes but the hero are 0 in `weight`, the
     /// hero's is multiplied by lane_count if the path carried all lanes before.
@@ -106,14 +107,14 @@ struct BsdfSample {
 Lanes evaluate(const Bsdf& bsdf, const SurfaceOptics& at, const Vec3& wo, const Vec3& wi,
                Transport transport);
 
-/// Density with which sample() chooses wi by a scattering lobe, times the probability that it chooses
-/// a scattering lobe at all [1/sr].
+/// Density with which sample() chooses wi by a scattering lobe, times the probability that it
+/// chooses a scattering lobe at all [1/sr].
 double pdf_solid_angle(const Bsdf& bsdf, const SurfaceOptics& at, const Vec3& wo, const Vec3& wi,
                        Transport transport);
 
 /// Samples one event in proportion to f |cos|; nothing if all light from wo is absorbed.
-/// Unbiased: E[weight * g(wi)] = sum over lobes of the integral of f |cos| g. With mean weight equal
-/// to the albedo; the caller decides by roulette whether the path goes on.
+/// Unbiased: E[weight * g(wi)] = sum over lobes of the integral of f |cos| g. With mean weight
+/// equal to the albedo; the caller decides by roulette whether the path goes on.
 std::optional<BsdfSample> sample(const Bsdf& bsdf, const SurfaceOptics& at, const Vec3& wo,
                                  double u_lobe, double u1, double u2, Transport transport);
 
@@ -121,6 +122,7 @@ std::optional<BsdfSample> sample(const Bsdf& bsdf, const SurfaceOptics& at, cons
 bool has_specular_lobe(const Bsdf& bsdf, const std::vector<Bsdf>& bsdfs);
 bool has_scattering_lobe(const Bsdf& bsdf, const std::vector<Bsdf>& bsdfs);
 /// True if light can pass through the surface.
-bool transmits(const Bsdf& bsdf, const std::vector<Bsdf>& bsdfs, const std::vector<spectral::Spectrum>& spectra);
+bool transmits(const Bsdf& bsdf, const std::vector<Bsdf>& bsdfs,
+               const std::vector<spectral::Spectrum>& spectra);
 
 }  // namespace lucerna::optics

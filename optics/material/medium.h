@@ -12,10 +12,10 @@ using MediumId = std::uint32_t;
 /// Homogeneous, not scattering. Where solids overlap, the one with the higher priority counts.
 struct Medium {
     std::string name;
-    SpectrumId index;            ///< index of refraction n(lambda)
-    SpectrumId absorption_per_m; ///< Beer-Lambert coefficient alpha(lambda) [1/m]
-    bool dispersive = false;     ///< n depends on wavelength
-    bool absorbing = false;      ///< alpha is not 0 everywhere
+    SpectrumId index;             ///< index of refraction n(lambda)
+    SpectrumId absorption_per_m;  ///< Beer-Lambert coefficient alpha(lambda) [1/m]
+    bool dispersive = false;      ///< n depends on wavelength
+    bool absorbing = false;       ///< alpha is not 0 everywhere
     int priority = 0;
 };
 

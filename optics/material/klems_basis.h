@@ -1,0 +1,58 @@
+// Division of the hemisphere into patches, rings of polar angle cut into equal sectors of azimuth,
+// after J. H. Klems, ASHRAE Transactions 100(1), 1994.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/vector.h"
+
+namespace lucerna::optics {
+
+/// Patches are numbered ring by ring from the pole; the first sector of a ring is centred on
+/// azimuth 0
+/// (+x), the others follow toward +y.
+class KlemsBasis {
+public:
+    struct Ring {
+        double lower_deg, upper_deg;  ///< polar angle
+        int sector_count;
+    };
+
+    /// Rings from 0 to 90 deg without gap; throws std::invalid_argument else.
+    explicit KlemsBasis(std::vector<Ring> rings);
+
+    /// The bases that LBNL WINDOW names "LBNL/Klems Full" (145 patches), "Half" (73), "Quarter"
+    /// (41).
+    static KlemsBasis full();
+    static KlemsBasis half();
+    static KlemsBasis quarter();
+
+    int patch_count() const { return patch_count_; }
+    /// Patch of a unit direction with z >= 0.
+    int patch(const Vec3& direction) const;
+    /// Integral of cos(theta) over the patch: pi (sin^2 upper - sin^2 lower) / sectors [sr].
+    double projected_solid_angle_sr(int patch) const;
+    /// Direction in the patch, uniform per projected solid angle.
+    Vec3 sample(int patch, double u1, double u2) const;
+    /// Middle of the patch in polar angle and azimuth (the pole for a single sector there).
+    Vec3 centre(int patch) const;
+    /// The patch turned by 180 deg of azimuth; nothing if the sectors do not fall on each other.
+    std::optional<int> opposite(int patch) const;
+
+    bool operator==(const KlemsBasis& other) const;
+
+private:
+    struct Place {
+        std::size_t ring;
+        int sector;
+    };
+    Place place(int patch) const;
+
+    std::vector<Ring> rings_;
+    std::vector<int> first_patch_;    // of each ring
+    std::vector<double> sin2_lower_;  // of each ring, and 1 at the end
+    int patch_count_ = 0;
+};
+
+}  // namespace lucerna::optics

@@ -1,0 +1,48 @@
+// Measured data as a BSDF: which end of the path the light comes from, and the weight of a sample.
+#include <cmath>
+
+#include "optics/material/models.h"
+
+namespace lucerna::optics {
+
+Lanes evaluate(const Measured& measured, const SurfaceOptics& at, const Vec3& wo, const Vec3& wi,
+               Transport transport) {
+    const bool from_wi = transport == Transport::radiance;
+    return std::visit(
+        [&](const auto& data) {
+            return data.bsdf_per_sr(from_wi ? wi : wo, from_wi ? wo : wi, at.wavelengths);
+        },
+        measured.data->data);
+}
+
+double pdf_solid_angle(const Measured& measured, const SurfaceOptics&, const Vec3& wo,
+                       const Vec3& wi, Transport transport) {
+    return std::visit([&](const auto& data) { return data.pdf_solid_angle(wo, wi, transport); },
+                      measured.data->data);
+}
+
+std::optional<BsdfSample> sample(const Measured& measured, const SurfaceOptics& at, const Vec3& wo,
+                                 const EventNumbers& u, Transport transport) {
+    const std::optional<Vec3> wi =
+        std::visit([&](const auto& data) { return data.sample(wo, u.lobe, u.u1, u.u2, transport); },
+                   measured.data->data);
+    if (!wi) return std::nullopt;
+    BsdfSample event;
+    event.wi = *wi;
+    event.pdf_solid_angle = pdf_solid_angle(measured, at, wo, *wi, transport);
+    if (!(event.pdf_solid_angle > 0.0)) return std::nullopt;  // wi rounded onto the horizon
+    event.weight = evaluate(measured, at, wo, *wi, transport) *
+                   static_cast<float>(std::abs(wi->z()) / event.pdf_solid_angle);
+    return event;
+}
+
+bool transmits(const MeasuredBsdf& measured) {
+    return std::visit(
+        [](const auto& data) {
+            const auto& transmission = data.parts().transmission;
+            return transmission[0].has_value() || transmission[1].has_value();
+        },
+        measured.data);
+}
+
+}  // namespace lucerna::optics

@@ -1,0 +1,53 @@
+// How far an image is from a reference, with the noise of both.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "io/luminance_image.h"
+
+namespace lucerna::io {
+
+/// A number and the half width of its 95 % interval; without a width where an image states no
+/// standard errors.
+struct BoundedValue {
+    double value = 0.0;
+    std::optional<double> expanded_uncertainty;
+};
+
+/// The 16 x 16 tile whose mean luminance is furthest from the reference's.
+struct WorstTile {
+    int x = 0, y = 0;             ///< its top left pixel
+    double reference_mean = 0.0;  ///< [cd/m2]
+    double image_mean = 0.0;      ///< [cd/m2]
+    /// image_mean - reference_mean relative to the mean of the whole reference, with the bound for
+    /// errors that are fully correlated within the tile.
+    BoundedValue difference;
+};
+
+/// Sums run over the pixels that count. Standard errors of different pixels are taken as
+/// independent for the RMSE. Pixels of one run share photons and wavelengths, so means also carry
+/// the bound for full correlation, which holds whatever the correlation is: the deviation of a sum
+/// is at most the sum of the deviations.
+struct Comparison {
+    int width = 0, height = 0;
+    std::size_t pixels = 0;            ///< that count
+    BoundedValue relative_rmse;        ///< sqrt(sum (L - L_ref)^2 / sum L_ref^2)
+    double trimmed_relative_rmse = 0;  ///< the same without the worst 0.1 % of the pixels
+    /// The same with the noise variance of both images subtracted, 0 where noise explains all of
+    /// it.
+    std::optional<double> noise_free_relative_rmse;
+    BoundedValue ratio_of_means;                         ///< image / reference, pixels independent
+    std::optional<double> ratio_correlated_uncertainty;  ///< half width for fully correlated pixels
+    WorstTile worst_tile;
+};
+
+/// Compares pixel by pixel. @param scale luminance of the image that stands for 1 in the reference.
+/// @param mask of the same size: pixels of value 0 do not count.
+/// Throws std::invalid_argument where sizes differ, no pixel counts, or the reference is black.
+Comparison compare_images(const LuminanceImage& reference, const LuminanceImage& image,
+                          double scale = 1.0, const LuminanceImage* mask = nullptr);
+
+std::string comparison_text(const Comparison& comparison);
+
+}  // namespace lucerna::io

@@ -1,0 +1,156 @@
+#include "io/report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/parallel.h"
+
+namespace lucerna::io {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Turns numbers into JSON and remembers those that JSON cannot hold.
+class Numbers {
+public:
+    Json operator()(double value, const std::string& name) {
+        if (std::isfinite(value)) return value;
+        not_finite_.push_back(name);
+        return nullptr;
+    }
+
+    /// One warning for all of them: the first few by name.
+    std::optional<std::string> warning() const {
+        if (not_finite_.empty()) return std::nullopt;
+        constexpr std::size_t named = 5;
+        const std::vector<std::string> first(
+            not_finite_.begin(),
+            not_finite_.begin() + static_cast<std::ptrdiff_t>(std::min(named, not_finite_.size())));
+        std::string text =
+            fmt::format("not finite and written as null: {}", fmt::join(first, ", "));
+        if (not_finite_.size() > named)
+            text += fmt::format(" and {} more", not_finite_.size() - named);
+        return text;
+    }
+
+private:
+    std::vector<std::string> not_finite_;
+};
+
+std::string method_name(optics::Method method) {
+    switch (method) {
+        case optics::Method::combined:
+            return "combined";
+        case optics::Method::forward:
+            return "forward";
+        case optics::Method::backward:
+            return "backward";
+        case optics::Method::path:
+            return "path";
+    }
+    throw std::logic_error("unknown method");
+}
+
+Json image_json(const optics::Image& image, Numbers& number) {
+    return {{"name", image.name},
+            {"width", image.width},
+            {"height", image.height},
+            {"delta", number(image.delta, image.name + " delta")},
+            {"delta_bias", number(image.delta_bias, image.name + " delta_bias")}};
+}
+
+Json quantity_json(const optics::Quantity& quantity, Numbers& number) {
+    const Estimate& estimate = quantity.estimate;
+    const auto named = [&](double value, const char* what) {
+        return number(value, quantity.name + " " + what);
+    };
+    Json json = {{"name", quantity.name},
+                 {"quantity", quantity.quantity},
+                 {"unit", quantity.unit},
+                 {"value", named(estimate.mean(), "value")},
+                 {"standard_error", named(estimate.standard_error(), "standard_error")},
+                 {"bias", named(estimate.bias(), "bias")},
+                 {"expanded_uncertainty",
+                  named(estimate.expanded_uncertainty(report_coverage), "expanded_uncertainty")},
+                 {"coverage", report_coverage},
+                 {"phases", estimate.count()}};
+    const double sum = quantity.x + estimate.mean() + quantity.z;
+    if (quantity.x > 0.0 && sum > 0.0) {
+        json["x"] = named(quantity.x / sum, "x");
+        json["y"] = named(estimate.mean() / sum, "y");
+    }
+    return json;
+}
+
+Json flux_json(const optics::FluxBalance& flux, Numbers& number) {
+    Json absorbed = Json::object();
+    for (const auto& [material, flux_lm] : flux.absorbed) {
+        absorbed[material] = number(flux_lm, "flux absorbed by " + material);
+    }
+    return {{"emitted", number(flux.emitted, "flux emitted")},
+            {"absorbed", absorbed},
+            {"escaped", number(flux.escaped, "flux escaped")},
+            {"trapped", number(flux.trapped, "flux trapped")},
+            {"inconsistent_medium", number(flux.inconsistent_medium, "flux inconsistent_medium")},
+            {"numerical", number(flux.numerical, "flux numerical")},
+            {"roulette_residue", number(flux.roulette_residue, "flux roulette_residue")},
+            {"closure", number(flux.closure(), "flux closure")}};
+}
+
+Json rays_json(const optics::RayCounts& rays, Numbers& number) {
+    return {{"backward_rays", rays.backward_rays},
+            {"caustic_rays", rays.caustic_rays},
+            {"secondary_rays", rays.secondary_rays},
+            {"backward_segments", rays.backward_segments},
+            {"forward_segments", rays.forward_segments},
+            {"shadow_segments", rays.shadow_segments},
+            {"forward_photons", rays.forward_photons},
+            {"backward_photons", rays.backward_photons},
+            {"scattering_hits", rays.scattering_hits},
+            {"deposits", rays.deposits},
+            {"backward_s", number(rays.backward_s, "rays backward_s")},
+            {"caustic_s", number(rays.caustic_s, "rays caustic_s")},
+            {"secondary_s", number(rays.secondary_s, "rays secondary_s")},
+            {"maps_s", number(rays.maps_s, "rays maps_s")}};
+}
+
+}  // namespace
+
+std::string report_json(const optics::Result& result, const ReportSource& source) {
+    Numbers number;
+    const int threads = result.settings.threads > 0 ? result.settings.threads : hardware_threads();
+    Json json = {{"program", "lucerna"},
+                 {"version", LUCERNA_VERSION},
+                 {"scene", source.scene},
+                 {"scene_hash", source.scene_hash},
+                 {"seed", result.settings.seed},
+                 {"method", method_name(result.settings.method)},
+                 {"threads", threads},
+                 {"phases", result.phases},
+                 {"wall_s", number(result.wall_s, "wall_s")},
+                 {"stopped_by", result.stopped_by},
+                 {"accuracy_reached", result.accuracy_reached}};
+    // The image that decides when to stop is the worst of all cameras.
+    const auto worst =
+        std::max_element(result.images.begin(), result.images.end(),
+                         [](const auto& a, const auto& b) { return a.delta < b.delta; });
+    json["image"] = worst == result.images.end() ? Json(nullptr) : image_json(*worst, number);
+    json["images"] = Json::array();
+    for (const auto& image : result.images) json["images"].push_back(image_json(image, number));
+    json["quantities"] = Json::array();
+    for (const auto& quantity : result.quantities) {
+        json["quantities"].push_back(quantity_json(quantity, number));
+    }
+    json["flux_balance_lm"] = flux_json(result.flux_balance_lm, number);
+    json["rays"] = rays_json(result.rays, number);
+    json["memory"] = {{"forward_map_bytes", result.forward_map_bytes},
+                      {"backward_map_bytes", result.backward_map_bytes},
+                      {"image_bytes", result.image_bytes}};
+    json["warnings"] = result.warnings;
+    if (const auto warning = number.warning()) json["warnings"].push_back(*warning);
+    // Text that is not UTF-8 (a file name can be anything) must not cost the report.
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace lucerna::io

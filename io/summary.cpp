@@ -1,0 +1,124 @@
+#include "io/summary.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/measured_value.h"
+#include "io/report.h"
+
+namespace lucerna::io {
+namespace {
+
+// A table with a left-aligned first column and right-aligned others.
+std::string table(const std::vector<std::vector<std::string>>& rows) {
+    std::vector<std::size_t> widths;
+    const auto width_of = [](const std::string& text) {  // of UTF-8 in characters
+        return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+            return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
+        }));
+    };
+    for (const auto& row : rows) {
+        widths.resize(std::max(widths.size(), row.size()));
+        for (std::size_t i = 0; i < row.size(); ++i)
+            widths[i] = std::max(widths[i], width_of(row[i]));
+    }
+    std::string text;
+    for (const auto& row : rows) {
+        std::string line = "  ";
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            const std::string padding(widths[i] - width_of(row[i]), ' ');
+            line += i == 0 ? row[i] + padding : "  " + padding + row[i];
+        }
+        line.erase(line.find_last_not_of(' ') + 1);
+        text += line + "\n";
+    }
+    return text;
+}
+
+std::string images_text(const optics::Result& result) {
+    std::string text;
+    for (const auto& image : result.images) {
+        text += fmt::format("Image {}: {} x {} pixels, noise δ = {:.2g} %, kernel bias {:.2g} %\n",
+                            image.name, image.width, image.height, 100.0 * image.delta,
+                            100.0 * image.delta_bias);
+    }
+    return text;
+}
+
+// "x 0.3127  y 0.3290" where the quantity has a colour.
+std::string colour_text(const optics::Quantity& quantity) {
+    const double sum = quantity.x + quantity.estimate.mean() + quantity.z;
+    if (!(quantity.x > 0.0) || !(sum > 0.0)) return "";
+    return fmt::format("x {:.4f}  y {:.4f}", quantity.x / sum, quantity.estimate.mean() / sum);
+}
+
+std::string quantities_text(const optics::Result& result) {
+    if (result.quantities.empty()) return "";
+    constexpr std::size_t shown = 40;  // a grid can have thousands; the report has them all
+    std::vector<std::vector<std::string>> rows;
+    for (std::size_t i = 0; i < std::min(shown, result.quantities.size()); ++i) {
+        const optics::Quantity& quantity = result.quantities[i];
+        const Estimate& estimate = quantity.estimate;
+        rows.push_back(
+            {quantity.name, quantity.quantity,
+             measured_value(estimate.mean(), estimate.expanded_uncertainty(report_coverage)) + " " +
+                 quantity.unit,
+             colour_text(quantity)});
+    }
+    std::string text =
+        fmt::format("\nQuantities, value ± U ({:.0f} %)\n", 100.0 * report_coverage) + table(rows);
+    if (result.quantities.size() > shown) {
+        text += fmt::format("  and {} more in the report\n", result.quantities.size() - shown);
+    }
+    return text;
+}
+
+std::string flux_text(const optics::FluxBalance& flux) {
+    if (!(flux.emitted > 0.0)) return "";
+    std::vector<std::vector<std::string>> rows;
+    const auto add = [&](const std::string& name, double flux_lm) {
+        rows.push_back({name, fmt::format("{:.6g} lm", flux_lm),
+                        fmt::format("{:.3f} %", 100.0 * flux_lm / flux.emitted)});
+    };
+    for (const auto& [material, flux_lm] : flux.absorbed) add("absorbed by " + material, flux_lm);
+    const auto add_unless_zero = [&](const char* name, double flux_lm) {
+        if (flux_lm != 0.0) add(name, flux_lm);
+    };
+    add_unless_zero("left the scene", flux.escaped);
+    add_unless_zero("trapped in lossless solids", flux.trapped);
+    add_unless_zero("lost to contradictions of solids", flux.inconsistent_medium);
+    add_unless_zero("lost to undefined numbers", flux.numerical);
+    add_unless_zero("residue of roulette (zero on average)", flux.roulette_residue);
+    const double closure_lm = flux.closure();
+    if (std::abs(closure_lm) > 1e-6 * flux.emitted) add("not accounted for", closure_lm);
+    add("emitted", flux.emitted);
+    return "\nFlux balance of the forward rays\n" + table(rows);
+}
+
+std::string work_text(const optics::Result& result) {
+    const optics::RayCounts& rays = result.rays;
+    return fmt::format("\nPhases {} in {:.1f} s, stopped by: {}\n", result.phases, result.wall_s,
+                       result.stopped_by) +
+           fmt::format("Paths from observers {}, from lights {} caustic and {} secondary\n",
+                       rays.backward_rays, rays.caustic_rays, rays.secondary_rays) +
+           fmt::format("Memory of a phase: forward map {}, backward map {}, images {}\n",
+                       byte_size(static_cast<double>(result.forward_map_bytes)),
+                       byte_size(static_cast<double>(result.backward_map_bytes)),
+                       byte_size(static_cast<double>(result.image_bytes)));
+}
+
+}  // namespace
+
+std::string summary(const optics::Result& result, const std::vector<WrittenFile>& files) {
+    std::string text = images_text(result) + quantities_text(result) +
+                       flux_text(result.flux_balance_lm) + work_text(result);
+    for (const auto& warning : result.warnings) text += "Warning: " + warning + "\n";
+    if (!files.empty()) {
+        text += "\nWritten\n";
+        for (const auto& file : files)
+            text += fmt::format("  {}  {}\n", file.path.string(), file.description);
+    }
+    return text;
+}
+
+}  // namespace lucerna::io

@@ -1,0 +1,76 @@
+#include "tests/io/example_result.h"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <fstream>
+#include <iterator>
+
+namespace lucerna::io {
+
+TestFolder::TestFolder() {
+    static std::atomic<int> count = 0;
+    path_ = std::filesystem::temp_directory_path() /
+            fmt::format("lucerna-test-{}-{}", ::getpid(), count++);
+    std::filesystem::create_directories(path_);
+}
+
+TestFolder::~TestFolder() {
+    std::filesystem::remove_all(path_);
+}
+
+Estimate estimate(double mean, double standard_error, double bias) {
+    Estimate result;
+    result.add(mean - standard_error, bias);
+    result.add(mean + standard_error, bias);
+    return result;
+}
+
+optics::Image example_image() {
+    optics::Image image;
+    image.name = "view";
+    image.width = 24;
+    image.height = 20;
+    image.bin_edges_nm = {400.0, 500.0, 600.0, 700.0};
+    for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) {
+            const double luminance = 1.0 + x + 100.0 * y;
+            image.luminance.push_back(estimate(luminance, 0.01 * luminance, -0.5));
+            image.x.push_back(static_cast<float>(luminance * 0.3127 / 0.3290));
+            image.z.push_back(static_cast<float>(luminance * (1.0 - 0.3127 - 0.3290) / 0.3290));
+            const int pixel = y * image.width + x;
+            for (int bin = 0; bin < 3; ++bin) {
+                image.spectral_radiance.push_back(0.001F *
+                                                  static_cast<float>((1 + pixel) * (1 + bin)));
+            }
+        }
+    }
+    image.delta = 0.0193;
+    image.delta_bias = 0.004;
+    return image;
+}
+
+optics::Result example_result() {
+    optics::Result result;
+    result.images = {example_image()};
+    result.quantities = {{"desk", "illuminance", "lx", estimate(512.34, 0.1), 480.0, 550.0}};
+    result.flux_balance_lm.emitted = 1000.0;
+    result.flux_balance_lm.absorbed = {{"floor", 333.3}, {"wall", 555.5}};
+    result.flux_balance_lm.escaped = 111.1;
+    result.flux_balance_lm.roulette_residue = 0.1;
+    result.settings.seed = 18446744073709551615ULL;  // does not fit a double
+    result.settings.threads = 2;
+    result.phases = 2;
+    result.wall_s = 1.5;
+    result.stopped_by = "phases";
+    result.backward_map_bytes = 35'200'000;
+    result.warnings = {"a warning"};
+    return result;
+}
+
+std::string read_text(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+}  // namespace lucerna::io

@@ -1,0 +1,105 @@
+#include <catch2/catch.hpp>
+
+#include "core/random.h"
+#include "io/compare.h"
+
+using namespace lucerna;
+using namespace lucerna::io;
+using Catch::Matchers::WithinAbs;
+using Catch::Matchers::WithinRel;
+
+namespace {
+
+LuminanceImage flat(int width, int height, double luminance, double standard_error = 0.0) {
+    const auto pixels = static_cast<std::size_t>(width * height);
+    LuminanceImage image{width, height, std::vector<double>(pixels, luminance), {}};
+    if (standard_error > 0.0) image.standard_error.assign(pixels, standard_error);
+    return image;
+}
+
+// Normal numbers of deviation 1 (Box and Muller).
+double normal(RandomStream& random) {
+    const double radius = std::sqrt(-2.0 * std::log(1.0 - random.uniform()));
+    return radius * std::cos(2.0 * 3.141592653589793 * random.uniform());
+}
+
+}  // namespace
+
+TEST_CASE("A known difference has its relative RMSE and ratio of means", "[unit][compare]") {
+    LuminanceImage image = flat(20, 10, 2.0);
+    image.luminance[0] = 12.0;  // 200 pixels of 2, one of them 10 too bright
+    const Comparison comparison = compare_images(flat(20, 10, 2.0), image);
+    CHECK_THAT(comparison.relative_rmse.value, WithinRel(std::sqrt(100.0 / 800.0), 1e-12));
+    CHECK(comparison.trimmed_relative_rmse == 0.0);
+    CHECK_THAT(comparison.ratio_of_means.value, WithinRel(410.0 / 400.0, 1e-12));
+    CHECK_FALSE(comparison.relative_rmse.expanded_uncertainty);
+    CHECK_FALSE(comparison.ratio_of_means.expanded_uncertainty);
+    CHECK_FALSE(comparison.noise_free_relative_rmse);
+}
+
+TEST_CASE("The worst tile is found where it is, at the border too", "[unit][compare]") {
+    const LuminanceImage reference = flat(40, 20, 1.0);
+    LuminanceImage image = reference;
+    for (int y = 16; y < 20; ++y) {
+        for (int x = 32; x < 40; ++x) image.luminance[static_cast<std::size_t>(y * 40 + x)] = 0.7;
+    }
+    const WorstTile tile = compare_images(reference, image).worst_tile;
+    CHECK(tile.x == 32);
+    CHECK(tile.y == 16);
+    CHECK_THAT(tile.image_mean, WithinRel(0.7, 1e-12));
+    CHECK_THAT(tile.difference.value, WithinRel(-0.3, 1e-12));
+}
+
+TEST_CASE("Scale and mask choose what is compared", "[unit][compare]") {
+    LuminanceImage image = flat(4, 4, 300.0);
+    image.luminance[5] = 1e6;
+    LuminanceImage mask = flat(4, 4, 1.0);
+    mask.luminance[5] = 0.0;
+    const Comparison comparison = compare_images(flat(4, 4, 3.0), image, 100.0, &mask);
+    CHECK(comparison.pixels == 15);
+    CHECK(comparison.relative_rmse.value == 0.0);
+    CHECK(comparison.ratio_of_means.value == 1.0);
+}
+
+TEST_CASE("Images that cannot be compared are refused", "[unit][compare]") {
+    const LuminanceImage one = flat(4, 4, 1.0);
+    const LuminanceImage none = flat(4, 4, 0.0);
+    CHECK_THROWS_WITH(compare_images(one, flat(4, 5, 1.0)), Catch::Contains("4 x 5"));
+    CHECK_THROWS_WITH(compare_images(one, one, 1.0, &none), Catch::Contains("mask"));
+    CHECK_THROWS_WITH(compare_images(none, one), Catch::Contains("black"));
+}
+
+TEST_CASE("The bounds hold the truth about as often as they say, for independent pixels",
+          "[statistical][compare]") {
+    // Reference 10 with error 0.3, image 10.5 with error 0.4: the noise-free relative RMSE is 5 %
+    // and the ratio 1.05.
+    constexpr int trials = 400;
+    const double truth_with_noise = std::sqrt(0.25 + 0.25) / 10.0;
+    int ratio_held = 0, rmse_held = 0;
+    double noise_free = 0.0;
+    for (std::uint32_t trial = 0; trial < trials; ++trial) {
+        RandomStream random(1, 0, RandomPurpose::test, trial);
+        LuminanceImage reference = flat(32, 32, 10.0, 0.3);
+        LuminanceImage image = flat(32, 32, 10.5, 0.4);
+        for (double& luminance : reference.luminance) luminance += 0.3 * normal(random);
+        for (double& luminance : image.luminance) luminance += 0.4 * normal(random);
+        const Comparison comparison = compare_images(reference, image);
+        ratio_held += std::abs(comparison.ratio_of_means.value - 1.05) <=
+                      *comparison.ratio_of_means.expanded_uncertainty;
+        rmse_held += std::abs(comparison.relative_rmse.value - truth_with_noise) <=
+                     *comparison.relative_rmse.expanded_uncertainty;
+        noise_free += *comparison.noise_free_relative_rmse / trials;
+        CHECK(*comparison.ratio_correlated_uncertainty >
+              *comparison.ratio_of_means.expanded_uncertainty);
+    }
+    // Binomial: 0.95 * 400 = 380 with deviation sqrt(400 * 0.95 * 0.05) = 4.4; 4.89 deviations
+    // are 21.3.
+    CHECK_THAT(ratio_held, WithinAbs(380.0, 21.3));
+    // max(0, d^2 - s^2) overestimates delta^2 a little, so this bound may hold more often, never
+    // less.
+    CHECK(rmse_held >= 380 - 21);
+    // Relative deviation of one D is sqrt(2 s^4 + 4 delta^2 s^2) / delta^2 / 32 = 7.7 %, of the
+    // root's mean over the trials 0.2 %; 8 of these find an error of 2 %, such as one variance of
+    // the two being forgotten (22 %).
+    CHECK_THAT(noise_free, WithinRel(0.05, 0.02));
+}

@@ -4,12 +4,13 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "core/vector.h"
 
 namespace lucerna::optics {
+
+class MeshSearch;  // see mesh_search.h
 
 /// An indexed triangle mesh in its own coordinates [m], with what was derived from it once.
 struct Mesh {
@@ -23,7 +24,20 @@ struct Mesh {
     std::vector<std::uint32_t> patches;      ///< smooth region of each triangle
     std::vector<double> patch_areas_m2;      ///< one per patch
     bool closed = false;                     ///< encloses a volume, consistently oriented outward
-    std::shared_ptr<const struct MeshSearch> search;  ///< for kernel areas, see mesh.cpp
+    std::shared_ptr<const MeshSearch> search;
 };
+
+/// Neighbouring triangles whose normals differ by less belong to one patch: the surface counts as
+/// smooth across their edge. A flat polygon is one patch, and so is a sphere of 18 or more segments
+/// around; the faces of a box or of an octagonal prism are patches of their own.
+inline constexpr double crease_angle_rad = 20.0 * pi / 180.0;
+
+/// Derives normals, areas, patches and the search structure of an indexed mesh.
+///
+/// Vertices at exactly the same position count as one where neighbours are sought; the indices are
+/// kept as they are. Throws std::invalid_argument if there is no triangle, an index is out of
+/// range, a coordinate is not finite, or a triangle has no area.
+std::shared_ptr<const Mesh> prepare_mesh(std::vector<Vec3> vertices,
+                                         std::vector<std::array<std::uint32_t, 3>> triangles);
 
 }  // namespace lucerna::optics

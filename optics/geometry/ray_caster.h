@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "optics/geometry/shape.h"
 
@@ -28,6 +29,9 @@ public:
     /// True if something lies strictly between the two points. Neither end's own surface counts.
     bool occluded(const Vec3& from, const SurfacePoint* from_surface, const Vec3& to,
                   const SurfacePoint* to_surface) const;
+
+    /// The solid objects that contain the point.
+    std::vector<ObjectId> containing(const Vec3& p) const;
 
     /// Radius of a sphere around the bounds' centre that holds all objects [m], and that centre.
     double scene_radius_m() const;

@@ -12,9 +12,9 @@ inline constexpr ObjectId no_object = ~0u;
 
 /// A point on the surface of an object.
 ///
-/// `patch` numbers the smooth parts of an object's surface (the six faces of a box, side and caps of
-/// a cylinder, regions of a mesh without a crease): kernels of the photon maps never reach across a
-/// patch. `primitive` is the triangle of a mesh, else equal to `patch`.
+/// `patch` numbers the smooth parts of an object's surface (the six faces of a box, side and caps
+/// of a cylinder, regions of a mesh without a crease): kernels of the photon maps never reach
+/// across a patch. `primitive` is the triangle of a mesh, else equal to `patch`.
 struct SurfacePoint {
     Vec3 position;
     Vec3 normal;  ///< geometric, unit, outward for solids, else the front of the sheet

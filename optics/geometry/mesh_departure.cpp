@@ -1,0 +1,104 @@
+#include "optics/geometry/mesh_departure.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace lucerna::optics {
+
+namespace {
+
+using Corners = std::array<Vec3, 3>;
+
+Corners corners_of(const Mesh& mesh, std::uint32_t triangle) {
+    const auto& [a, b, c] = mesh.triangles[triangle];
+    return {mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]};
+}
+
+Vec3 nearest_on_segment(const Vec3& a, const Vec3& b, const Vec3& p) {
+    const Vec3 edge = b - a;
+    return a + std::clamp((p - a).dot(edge) / edge.squaredNorm(), 0.0, 1.0) * edge;
+}
+
+/// Signed distance of p from the line through edge k, positive inside; p lies in the plane.
+double distance_from_edge(const Corners& corners, const Vec3& normal, std::size_t k,
+                          const Vec3& p) {
+    const Vec3& a = corners[k];
+    const Vec3 edge = corners[(k + 1) % 3] - a;
+    return normal.cross(edge).dot(p - a) / edge.norm();
+}
+
+/// The point of the triangle nearest to p, which lies in its plane.
+Vec3 nearest_in_triangle(const Corners& corners, const Vec3& normal, const Vec3& p) {
+    Vec3 nearest = p;
+    double nearest_squared = infinity;
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (distance_from_edge(corners, normal, k, p) >= 0.0) continue;
+        const Vec3 q = nearest_on_segment(corners[k], corners[(k + 1) % 3], p);
+        if ((q - p).squaredNorm() < nearest_squared) {
+            nearest = q;
+            nearest_squared = (q - p).squaredNorm();
+        }
+    }
+    return nearest;
+}
+
+}  // namespace
+
+bool near_edge(const Mesh& mesh, std::uint32_t triangle, const Vec3& p, double distance_m) {
+    const Corners corners = corners_of(mesh, triangle);
+    for (std::size_t k = 0; k < 3; ++k)
+        if (distance_from_edge(corners, mesh.normals[triangle], k, p) < distance_m) return true;
+    return false;
+}
+
+std::optional<TriangleHit> nearest_neighbour_hit(const Mesh& mesh, std::uint32_t start,
+                                                 const Ray& ray) {
+    const Vec3& start_normal = mesh.normals[start];
+    const double side = ray.direction.dot(start_normal) > 0.0 ? 1.0 : -1.0;
+    std::optional<TriangleHit> best;
+    mesh.search->for_each_neighbour(mesh, start, [&](std::uint32_t triangle) {
+        if (triangle == start) return;
+        const Vec3& normal = mesh.normals[triangle];
+        if (side * ray.direction.dot(normal) >= 0.0) return;  // would come from its other side
+        const Corners corners = corners_of(mesh, triangle);
+        // Rounding of the position, in units of the coordinates that enter it.
+        const double size =
+            ray.origin.cwiseAbs().maxCoeff() + (corners[1] - corners[0]).cwiseAbs().maxCoeff();
+        const double rounding = 1e-14 * size;
+        double distance_m;
+        const double height = (ray.origin - corners[0]).dot(normal);
+        if (std::abs(height) <= rounding) {
+            const Vec3 foot = ray.origin - height * normal;
+            if ((nearest_in_triangle(corners, normal, foot) - foot).norm() > rounding) return;
+            double rise = 0.0;  // how far the neighbour bends towards the ray's side
+            for (const Vec3& corner : corners)
+                rise = std::max(rise, side * start_normal.dot(corner - ray.origin));
+            if (rise <= 1e-9 * size) return;
+            distance_m = 0.0;
+        } else {
+            const auto t = intersect_triangle(mesh, triangle, ray);
+            if (!t || *t <= 0.0) return;
+            distance_m = *t;
+        }
+        if (!best || distance_m < best->distance_m) best = TriangleHit{distance_m, triangle};
+    });
+    return best;
+}
+
+Vec3 refine_hit(const Mesh& mesh, std::uint32_t triangle, const Ray& ray, double& distance_m) {
+    const Corners corners = corners_of(mesh, triangle);
+    const Vec3& normal = mesh.normals[triangle];
+    const double slope = ray.direction.dot(normal);
+    double t = (corners[0] - ray.origin).dot(normal) / slope;
+    // Nearly in the plane, the crossing of the plane says little: keep what was found.
+    if (!(std::abs(slope) > 1e-9)) t = distance_m;
+    Vec3 p = ray.origin + t * ray.direction;
+    p -= (p - corners[0]).dot(normal) * normal;
+    const Vec3 q = nearest_in_triangle(corners, normal, p);
+    if (q != p) t = (q - ray.origin).dot(ray.direction);
+    distance_m = std::max(t, 0.0);
+    return q;
+}
+
+}  // namespace lucerna::optics

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <stdexcept>
+
+#include "core/diagnostics.h"
 
 namespace lucerna::io {
 namespace {
@@ -143,8 +143,8 @@ Comparison compare_images(const LuminanceImage& reference, const LuminanceImage&
     const PixelPairs pairs(reference, image, scale, mask);
     const Sums sums = sum(pairs);
     if (sums.squared_differences.empty())
-        throw std::invalid_argument("the mask leaves no pixel to compare");
-    if (!(sums.reference > 0.0)) throw std::invalid_argument("the reference is black");
+        throw InputError({}, "the mask leaves no pixel to compare");
+    if (!(sums.reference > 0.0)) throw InputError({}, "the reference is black");
 
     Comparison result;
     result.width = reference.width;

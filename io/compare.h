@@ -44,7 +44,7 @@ struct Comparison {
 
 /// Compares pixel by pixel. @param scale luminance of the image that stands for 1 in the reference.
 /// @param mask of the same size: pixels of value 0 do not count.
-/// Throws std::invalid_argument where sizes differ, no pixel counts, or the reference is black.
+/// Throws InputError where sizes differ, no pixel counts, or the reference is black.
 Comparison compare_images(const LuminanceImage& reference, const LuminanceImage& image,
                           double scale = 1.0, const LuminanceImage* mask = nullptr);
 

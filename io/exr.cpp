@@ -17,7 +17,7 @@
 
 #include "core/diagnostics.h"
 #include "io/atomic_file.h"
-#include "io/rgb.h"
+#include "spectral/colorimetry.h"
 
 namespace lucerna::io {
 namespace {
@@ -82,7 +82,7 @@ public:
 private:
     void add_rgb() {
         for (int c = 0; c < 3; ++c) {
-            const Vec3 weights = xyz_to_linear_rgb().row(c);
+            const Vec3 weights = spectral::linear_srgb_from_xyz().row(c);
             add(std::string(1, "RGB"[c]), [&](std::size_t i) {
                 return weights.dot(
                     Vec3(double{image_.x[i]}, image_.luminance[i].mean(), double{image_.z[i]}));

@@ -1,12 +1,18 @@
 #include "io/luminance_image.h"
 
+#include <Eigen/LU>
 #include <fstream>
 
 #include "core/diagnostics.h"
 #include "io/exr.h"
 #include "io/pfm.h"
+#include "spectral/colorimetry.h"
 
 namespace lucerna::io {
+
+Vec3 luminance_of_rgb() {
+    return spectral::linear_srgb_from_xyz().inverse().row(1);
+}
 
 LuminanceImage read_image(const std::filesystem::path& path) {
     char start[4] = {};

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <vector>
 
+#include "core/vector.h"
+
 namespace lucerna::io {
 
 /// Row 0 is the top row.
@@ -15,6 +17,10 @@ struct LuminanceImage {
 
 /// More pixels than this are taken for a damaged header (16384 squared).
 inline constexpr long max_pixels = 1L << 28;
+
+/// Weights of linear R, G, B in luminance: Y of the primaries of ITU-R BT.709 (0.2126, 0.7152,
+/// 0.0722).
+Vec3 luminance_of_rgb();
 
 /// Reads an OpenEXR or PFM image, told apart by their first bytes. Throws InputError.
 LuminanceImage read_image(const std::filesystem::path& path);

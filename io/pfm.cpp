@@ -9,7 +9,6 @@
 #include <limits>
 
 #include "core/diagnostics.h"
-#include "io/rgb.h"
 
 namespace lucerna::io {
 namespace {

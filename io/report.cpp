@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/parallel.h"
+#include "spectral/colorimetry.h"
 
 namespace lucerna::io {
 namespace {
@@ -75,10 +76,15 @@ Json quantity_json(const optics::Quantity& quantity, Numbers& number) {
                   named(estimate.expanded_uncertainty(report_coverage), "expanded_uncertainty")},
                  {"coverage", report_coverage},
                  {"phases", estimate.count()}};
-    const double sum = quantity.x + estimate.mean() + quantity.z;
-    if (quantity.x > 0.0 && sum > 0.0) {
-        json["x"] = named(quantity.x / sum, "x");
-        json["y"] = named(estimate.mean() / sum, "y");
+    if (quantity.x == 0.0 && quantity.z == 0.0) return json;  // colour has no meaning here
+    const spectral::Xyz colour{quantity.x, estimate.mean(), quantity.z};
+    if (const auto chromaticity = spectral::chromaticity(colour)) {
+        json["x"] = named(chromaticity->x, "x");
+        json["y"] = named(chromaticity->y, "y");
+    }
+    if (const auto temperature = spectral::correlated_colour_temperature(colour)) {
+        json["correlated_colour_temperature_k"] = named(temperature->cct_k, "colour temperature");
+        json["duv"] = named(temperature->duv, "duv");
     }
     return json;
 }

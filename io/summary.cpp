@@ -5,6 +5,7 @@
 
 #include "io/measured_value.h"
 #include "io/report.h"
+#include "spectral/colorimetry.h"
 
 namespace lucerna::io {
 namespace {
@@ -45,11 +46,17 @@ std::string images_text(const optics::Result& result) {
     return text;
 }
 
-// "x 0.3127  y 0.3290" where the quantity has a colour.
+// "x 0.3127  y 0.3290  6504 K" where the quantity has a colour.
 std::string colour_text(const optics::Quantity& quantity) {
-    const double sum = quantity.x + quantity.estimate.mean() + quantity.z;
-    if (!(quantity.x > 0.0) || !(sum > 0.0)) return "";
-    return fmt::format("x {:.4f}  y {:.4f}", quantity.x / sum, quantity.estimate.mean() / sum);
+    if (quantity.x == 0.0 && quantity.z == 0.0) return "";
+    const spectral::Xyz colour{quantity.x, quantity.estimate.mean(), quantity.z};
+    const auto chromaticity = spectral::chromaticity(colour);
+    if (!chromaticity) return "";
+    std::string text = fmt::format("x {:.4f}  y {:.4f}", chromaticity->x, chromaticity->y);
+    if (const auto temperature = spectral::correlated_colour_temperature(colour)) {
+        text += fmt::format("  {:.0f} K", temperature->cct_k);
+    }
+    return text;
 }
 
 std::string quantities_text(const optics::Result& result) {

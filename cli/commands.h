@@ -1,0 +1,44 @@
+// The commands of the program: each reads, works, prints, and returns the exit code.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "optics/transport/settings.h"
+
+namespace lucerna::cli {
+
+/// What the program tells the shell.
+enum ExitCode { done = 0, internal_error = 1, bad_input = 2, accuracy_not_reached = 3 };
+
+/// What the command line says about a run; what it leaves open is as the scene file says.
+struct RunOptions {
+    std::filesystem::path scene;
+    std::optional<std::filesystem::path> output;  ///< default: SCENE-results beside the scene
+    std::optional<double> accuracy;               ///< of images and sensors, such as 0.02
+    std::optional<double> time_limit_s;
+    std::optional<std::uint32_t> phases;
+    std::optional<int> threads;
+    std::optional<std::uint64_t> seed;
+    std::optional<optics::Method> method;
+    std::optional<int> spectral_bins;
+};
+
+/// Simulates a scene and writes images, previews and report. Interrupted by SIGINT, it finishes the
+/// phase and writes.
+ExitCode run(const RunOptions& options);
+
+/// Reads a scene with all checks of a run and says what it holds.
+ExitCode check(const std::filesystem::path& scene);
+
+struct CompareOptions {
+    std::filesystem::path reference, image;
+    std::optional<std::filesystem::path> mask;
+    double scale = 1.0;  ///< luminance of the image that stands for 1 in the reference
+};
+ExitCode compare(const CompareOptions& options);
+
+/// Says what a photometric file holds.
+ExitCode photometry(const std::filesystem::path& file);
+
+}  // namespace lucerna::cli

@@ -1,0 +1,123 @@
+// lucerna: the command line. All errors end here, with an exit code and a text on stderr.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <map>
+#include <new>
+#include <stdexcept>
+
+#include "cli/commands.h"
+#include "core/diagnostics.h"
+#include "io/quantity.h"
+
+using namespace lucerna;
+
+namespace {
+
+// Hands a number with unit, such as 2% or 60s, to an optional value.
+std::function<void(const std::string&)> quantity_into(std::optional<double>& value,
+                                                      const io::Dimension& dimension) {
+    return [&value, &dimension](const std::string& text) {
+        try {
+            value = io::parse_value(text, dimension);
+        } catch (const std::invalid_argument& error) {  // CLI11 wants a type of its own
+            throw CLI::ValidationError(error.what());
+        }
+        if (!(*value > 0.0))
+            throw CLI::ValidationError(fmt::format("'{}' is not above zero", text));
+    };
+}
+
+struct CommandLine {
+    CLI::App app{"Lucerna: spectral simulation of light with accuracy bounds", "lucerna"};
+    cli::RunOptions run;
+    std::filesystem::path scene_to_check, photometric_file;
+    cli::CompareOptions compare;
+    CLI::App* run_command;
+    CLI::App* check_command;
+    CLI::App* compare_command;
+    CLI::App* photometry_command;
+
+    CommandLine() {
+        app.set_version_flag("--version", "lucerna " LUCERNA_VERSION);
+        app.require_subcommand(1);
+
+        run_command =
+            app.add_subcommand("run", "Simulate a scene; write images, previews and report");
+        run_command->add_option("SCENE", run.scene, "Scene file (YAML)")->required();
+        run_command->add_option("-o,--output", run.output,
+                                "Folder of the results [SCENE-results beside the scene]");
+        run_command
+            ->add_option_function("--accuracy", quantity_into(run.accuracy, io::dimension::percent),
+                                  "Noise to stop at, of images and sensors, such as 2%")
+            ->type_name("PERCENT");
+        run_command
+            ->add_option_function("--time", quantity_into(run.time_limit_s, io::dimension::time),
+                                  "Wall time to stop at, such as 60s or 10min")
+            ->type_name("TIME");
+        run_command->add_option("--phases", run.phases, "Number of phases to stop at")
+            ->check(CLI::PositiveNumber);
+        run_command->add_option("--threads", run.threads, "Threads to use [all of the machine]")
+            ->check(CLI::PositiveNumber);
+        run_command->add_option("--seed", run.seed, "Seed of the random numbers");
+        run_command->add_option("--method", run.method, "Estimators to use")
+            ->transform(CLI::CheckedTransformer(
+                std::map<std::string, optics::Method>{{"combined", optics::Method::combined},
+                                                      {"forward", optics::Method::forward},
+                                                      {"backward", optics::Method::backward},
+                                                      {"path", optics::Method::path}}));
+        run_command
+            ->add_option("--spectral", run.spectral_bins, "Bins of the spectral image [0: none]")
+            ->check(CLI::Range(0, 470));  // 1 nm over 360 to 830 nm
+
+        check_command = app.add_subcommand("check", "Read a scene and say what it holds");
+        check_command->add_option("SCENE", scene_to_check, "Scene file (YAML)")->required();
+
+        compare_command = app.add_subcommand("compare", "Say how far an image is from a reference");
+        compare_command->add_option("REF", compare.reference, "Reference (EXR or PFM)")->required();
+        compare_command->add_option("IMAGE", compare.image, "Image of the same size")->required();
+        compare_command
+            ->add_option("--scale", compare.scale,
+                         "Luminance of IMAGE that stands for 1 in REF [1]")
+            ->check(CLI::PositiveNumber);
+        compare_command->add_option("--mask", compare.mask,
+                                    "Image whose pixels of value 0 do not count");
+
+        photometry_command =
+            app.add_subcommand("photometry", "Say what an IES or EULUMDAT file holds");
+        photometry_command->add_option("FILE", photometric_file, "IES LM-63 or EULUMDAT file")
+            ->required();
+    }
+
+    cli::ExitCode execute() const {
+        if (*run_command) return cli::run(run);
+        if (*check_command) return cli::check(scene_to_check);
+        if (*compare_command) return cli::compare(compare);
+        return cli::photometry(photometric_file);
+    }
+};
+
+void complain(const std::string& message) {
+    fmt::print(stderr, "{}\n", message);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CommandLine command_line;
+    try {
+        command_line.app.parse(argc, argv);
+        return command_line.execute();
+    } catch (const CLI::ParseError& error) {  // also --help and --version, with code 0
+        return command_line.app.exit(error) == 0 ? cli::done : cli::bad_input;
+    } catch (const InputError& error) {
+        complain(error.what());
+        return cli::bad_input;
+    } catch (const std::bad_alloc&) {
+        complain("lucerna: the memory of the machine does not suffice");
+        return cli::internal_error;
+    } catch (const std::exception& error) {
+        complain(fmt::format("lucerna: {}", error.what()));
+        return cli::internal_error;
+    }
+}

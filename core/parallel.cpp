@@ -23,9 +23,8 @@ void for_each_block(std::size_t block_count, int threads,
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(threads));
     tbb::task_arena arena(threads);
-    arena.execute([&] {
-        tbb::parallel_for(std::size_t{0}, block_count, work, tbb::simple_partitioner());
-    });
+    arena.execute(
+        [&] { tbb::parallel_for(std::size_t{0}, block_count, work, tbb::simple_partitioner()); });
 }
 
 }  // namespace lucerna

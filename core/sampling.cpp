@@ -29,7 +29,9 @@ Vec3 sample_cone(double cos_half_angle, double u1, double u2) {
     return {sin_theta * std::cos(phi), sin_theta * std::sin(phi), cos_theta};
 }
 
-Vec3 sample_sphere(double u1, double u2) { return sample_cone(-1.0, u1, u2); }
+Vec3 sample_sphere(double u1, double u2) {
+    return sample_cone(-1.0, u1, u2);
+}
 
 DiscreteDistribution::DiscreteDistribution(std::span<const double> weights) {
     cumulative_.reserve(weights.size());

@@ -27,7 +27,8 @@ public:
     DiscreteDistribution() = default;
     explicit DiscreteDistribution(std::span<const double> weights);
 
-    /// Index for u in [0, 1); if `rest` is given, it receives a fresh uniform number left over from u.
+    /// Index for u in [0, 1); if `rest` is given, it receives a fresh uniform number left over from
+    /// u.
     std::size_t sample(double u, double* rest = nullptr) const;
     double probability(std::size_t index) const;
     double total() const { return total_; }

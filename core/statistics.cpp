@@ -81,7 +81,9 @@ void Estimate::merge(const Estimate& other) {
     bias_sum_of_squares_ += other.bias_sum_of_squares_;
 }
 
-double Estimate::mean() const { return count_ == 0 ? 0.0 : sum_ / static_cast<double>(count_); }
+double Estimate::mean() const {
+    return count_ == 0 ? 0.0 : sum_ / static_cast<double>(count_);
+}
 
 double Estimate::standard_error() const {
     return deviation_of_mean(sum_, sum_of_squares_, count_);

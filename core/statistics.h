@@ -5,7 +5,8 @@
 
 namespace lucerna {
 
-/// Running mean and spread of a functional that is computed once per phase (METHOD eq. 5, with N - 1).
+/// Running mean and spread of a functional that is computed once per phase (METHOD eq. 5, with N -
+/// 1).
 ///
 /// The phase is the statistical unit: photons and wavelengths are shared within it, so an error bar
 /// taken inside a phase would be too small. `bias` runs beside the value: the kernel bias of the
@@ -33,7 +34,8 @@ private:
     double bias_sum_of_squares_ = 0.0;
 };
 
-/// Two-sided quantile of Student's t: P(|T| <= t) = coverage with `degrees` >= 1 degrees of freedom.
+/// Two-sided quantile of Student's t: P(|T| <= t) = coverage with `degrees` >= 1 degrees of
+/// freedom.
 double student_t(double coverage, double degrees);
 
 }  // namespace lucerna

@@ -21,10 +21,10 @@ inline constexpr BsdfId pass_through = ~0u;
 struct Object {
     std::string name;
     Shape shape;
-    BsdfId front = 0;                 ///< on the side of the normal, or pass_through
-    BsdfId back = 0;                  ///< on the other side
-    std::optional<MediumId> interior; ///< for solids of a transparent medium
-    std::string material;             ///< name of the material, for the flux balance
+    BsdfId front = 0;                  ///< on the side of the normal, or pass_through
+    BsdfId back = 0;                   ///< on the other side
+    std::optional<MediumId> interior;  ///< for solids of a transparent medium
+    std::string material;              ///< name of the material, for the flux balance
     /// Orients an anisotropic BSDF: its local y axis is `up` projected onto the surface.
     std::optional<Vec3> up;
 };

@@ -1,5 +1,5 @@
-// The backward photon map (METHOD eq. 3): vertices of backward rays that collect the flux of forward
-// rays hitting their surroundings.
+// The backward photon map (METHOD eq. 3): vertices of backward rays that collect the flux of
+// forward rays hitting their surroundings.
 #pragma once
 
 #include <vector>
@@ -12,17 +12,18 @@ namespace lucerna::optics {
 /// A vertex of a backward ray.
 struct BackwardPhoton {
     SurfacePoint point;
-    Vec3 wo;                 ///< local direction toward the observer
-    Lanes throughput;        ///< filter from here to the observer, BSDF weights included
+    Vec3 wo;           ///< local direction toward the observer
+    Lanes throughput;  ///< filter from here to the observer, BSDF weights included
     BsdfId bsdf;
     ObjectId medium_above, medium_below;
-    std::uint32_t bin;       ///< of the readings
-    std::uint8_t accepts;    ///< History values, or-ed
+    std::uint32_t bin;     ///< of the readings
+    std::uint8_t accepts;  ///< History values, or-ed
     bool hero_only;
 };
 
-/// Filled by forward rays and then read once. The sums of a backward photon are written by one thread
-/// at a time and in the order of the rays, so that they do not depend on the number of threads.
+/// Filled by forward rays and then read once. The sums of a backward photon are written by one
+/// thread at a time and in the order of the rays, so that they do not depend on the number of
+/// threads.
 class BackwardMap {
 public:
     BackwardMap() = default;
@@ -47,8 +48,8 @@ public:
     /// Returns the number of deposits.
     std::uint64_t apply(std::size_t part, std::span<const Deposits> blocks);
 
-    /// Calls read(bin, radiance, radiance_inner) for each backward photon of a block of observer samples,
-    /// in order; `rays` is the number of forward rays traced.
+    /// Calls read(bin, radiance, radiance_inner) for each backward photon of a block of observer
+    /// samples, in order; `rays` is the number of forward rays traced.
     template <typename Read>
     void read(std::size_t block, std::uint64_t rays, Read&& read) const {
         for (std::size_t i = block_starts_[block]; i < block_starts_[block + 1]; ++i) {
@@ -74,9 +75,9 @@ private:
     const Radii* radii_ = nullptr;
     std::vector<BackwardPhoton> photons_;
     std::vector<std::size_t> block_starts_;
-    std::vector<Gathered> sums_;           // of f dPhi, at both radii
+    std::vector<Gathered> sums_;  // of f dPhi, at both radii
     std::vector<std::uint8_t> touched_;
-    CellGrid<Candidate> grid_;             // each photon stands in all cells that its kernel meets
+    CellGrid<Candidate> grid_;  // each photon stands in all cells that its kernel meets
 };
 
 }  // namespace lucerna::optics

@@ -3,7 +3,9 @@
 namespace lucerna::optics {
 namespace {
 
-constexpr std::uint8_t mask(History history) { return static_cast<std::uint8_t>(history); }
+constexpr std::uint8_t mask(History history) {
+    return static_cast<std::uint8_t>(history);
+}
 constexpr std::uint8_t all_light =
     mask(History::direct) | mask(History::caustic) | mask(History::indirect);
 
@@ -23,8 +25,8 @@ public:
           stored_(stored) {}
 
     void trace(const ObserverBins& bins, std::size_t bin, std::uint32_t sample) {
-        const auto path_number = static_cast<std::uint32_t>(bins.first_path +
-                                                            bin * bins.samples_per_bin + sample);
+        const auto path_number =
+            static_cast<std::uint32_t>(bins.first_path + bin * bins.samples_per_bin + sample);
         RandomStream random(phase_.seed, phase_.number, RandomPurpose::backward, path_number);
         bin_ = static_cast<std::uint32_t>(bins.first_bin + bin);
         scatterings_ = 0;
@@ -48,8 +50,8 @@ private:
                                     static_cast<double>(bin / width) + u2);
         } else if (const auto* meter = std::get_if<LuminanceMeter>(&observer)) {
             const Frame frame(meter->direction);
-            path_.ray = {meter->position,
-                         frame.to_world(sample_cone(std::cos(meter->acceptance_half_angle_rad), u1, u2))};
+            path_.ray = {meter->position, frame.to_world(sample_cone(
+                                              std::cos(meter->acceptance_half_angle_rad), u1, u2))};
         } else {
             const auto& points = std::get<IlluminancePoints>(observer);
             return leave_sensor(points, bin, planes_.plane_of(number, bin), u1, u2, random);
@@ -58,8 +60,8 @@ private:
         return true;
     }
 
-    // An illuminance point is the first scattering event of its rays: a virtual white diffuser whose
-    // luminance is L = E / pi.
+    // An illuminance point is the first scattering event of its rays: a virtual white diffuser
+    // whose luminance is L = E / pi.
     bool leave_sensor(const IlluminancePoints& points, std::size_t bin, std::uint32_t plane,
                       double u1, double u2, RandomStream& random) {
         const Vec3& position = points.positions[bin];
@@ -98,8 +100,8 @@ private:
         if (collected && collection_.second_deposit == 0) return false;
 
         const Bsdf& bsdf = stage.parts().bsdfs[encounter->bsdf];
-        const SurfaceOptics optics = optics_at(phase_, encounter->medium_above,
-                                               encounter->medium_below, path_.hero_only);
+        const SurfaceOptics optics =
+            optics_at(phase_, encounter->medium_above, encounter->medium_below, path_.hero_only);
         if (stage.scatters(encounter->bsdf)) {
             if (collected) {
                 store(*encounter, collection_.second_deposit);
@@ -148,7 +150,8 @@ private:
         if (scatterings_ > 0 && specular_since_) {
             if (!collection_.emission_behind_specular) return;  // the maps' part
         } else if (scatterings_ > 0) {
-            weight = emission_weight(phase_, light, scattered_from_, encounter.point, scattered_pdf_);
+            weight =
+                emission_weight(phase_, light, scattered_from_, encounter.point, scattered_pdf_);
         }
         const Lanes radiance =
             emitted_radiance(phase_, light, encounter.point, -path_.ray.direction);
@@ -161,11 +164,10 @@ private:
         const GatherPoint at{encounter.point, encounter.frame, encounter.wo, bsdf, optics};
         const bool above = encounter.wo.z() > 0.0;
         readings_.add(phase_, bin_,
-                      path_.weight *
-                          light_sample(phase_, at, &encounter.point,
-                                       above ? path_.media : encounter.media_beyond,
-                                       above ? encounter.media_beyond : path_.media, random,
-                                       tally_.shadow_segments));
+                      path_.weight * light_sample(phase_, at, &encounter.point,
+                                                  above ? path_.media : encounter.media_beyond,
+                                                  above ? encounter.media_beyond : path_.media,
+                                                  random, tally_.shadow_segments));
         if (scatterings_ > 0) return;
         gather(at, collection_.first_gather);
         if (collection_.first_deposit) store(encounter, collection_.first_deposit);
@@ -238,14 +240,16 @@ Collection Collection::of(Method method, PlantedError planted) {
 }
 
 bool Collection::needs_forward_map(bool has_caustics, bool has_sensors) const {
-    const std::uint8_t wanted = static_cast<std::uint8_t>(first_gather | (has_sensors ? sensor_gather : 0));
+    const std::uint8_t wanted =
+        static_cast<std::uint8_t>(first_gather | (has_sensors ? sensor_gather : 0));
     return (wanted & mask(History::indirect)) || (wanted && has_caustics);
 }
 
 std::vector<BackwardPhoton> trace_backward(const Phase& phase, const Collection& collection,
                                            const BinBlock& block, const SensorPlanes& planes,
-                                           const ForwardMap& forward_map, const Radii& forward_radii,
-                                           Readings& readings, BackwardTally& tally) {
+                                           const ForwardMap& forward_map,
+                                           const Radii& forward_radii, Readings& readings,
+                                           BackwardTally& tally) {
     std::vector<BackwardPhoton> stored;
     const ObserverBins& bins = readings.observers()[block.observer_bins];
     BackwardRay ray(phase, collection, planes, forward_map, forward_radii, readings, tally, stored);

@@ -4,9 +4,9 @@ namespace lucerna::optics {
 namespace {
 
 // Internal transmittance of the straight line between two points; nothing if it is blocked.
-std::optional<Lanes> line_of_sight(const Phase& phase, const Vec3& from, const SurfacePoint* surface,
-                                   const Illumination& light, MediumStack media,
-                                   std::uint64_t& shadow_segments) {
+std::optional<Lanes> line_of_sight(const Phase& phase, const Vec3& from,
+                                   const SurfacePoint* surface, const Illumination& light,
+                                   MediumStack media, std::uint64_t& shadow_segments) {
     const Stage& stage = phase.stage;
     const SceneParts& parts = stage.parts();
     const SurfacePoint* target = light.surface.object == no_object ? nullptr : &light.surface;
@@ -81,9 +81,7 @@ Lanes light_sample(const Phase& phase, const GatherPoint& at, const SurfacePoint
 
     const double probability = stage.light_choice().probability(chosen);
     const double by_bsdf =
-        sampled->delta
-            ? 0.0
-            : pdf_solid_angle(at.bsdf, at.optics, at.wo, wi, Transport::radiance);
+        sampled->delta ? 0.0 : pdf_solid_angle(at.bsdf, at.optics, at.wo, wi, Transport::radiance);
     const double weight =
         sampled->delta ? 1.0 : balance_weight(probability * sampled->pdf_solid_angle, by_bsdf);
     return f * *seen * phase.spectra[light.flux_w_per_nm] *

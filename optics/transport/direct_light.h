@@ -18,7 +18,8 @@ Lanes light_sample(const Phase& phase, const GatherPoint& at, const SurfacePoint
                    const MediumStack& media_above, const MediumStack& media_below,
                    RandomStream& random, std::uint64_t& shadow_segments);
 
-/// Weight of emission found by a direction that the BSDF chose with density `pdf_solid_angle` from x.
+/// Weight of emission found by a direction that the BSDF chose with density `pdf_solid_angle` from
+/// x.
 double emission_weight(const Phase& phase, std::uint32_t light, const Vec3& x,
                        const SurfacePoint& emitter, double pdf_solid_angle);
 

@@ -30,8 +30,7 @@ ForwardMap::ForwardMap(const Stage& stage, const Radii& radii, std::vector<Photo
     entries.reserve(photons_.size());
     for (std::uint32_t i = 0; i < photons_.size(); ++i) {
         const std::uint32_t patch = kernel_patch(stage, photons_[i].point);
-        entries.push_back(
-            {CellKey::at(patch, photons_[i].point.position, 2.0 * radii[patch]), i});
+        entries.push_back({CellKey::at(patch, photons_[i].point.position, 2.0 * radii[patch]), i});
     }
     grid_.build(std::move(entries));
 }

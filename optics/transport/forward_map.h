@@ -1,5 +1,5 @@
-// The forward photon map (METHOD eq. 2): photons from the lights, gathered where a backward ray meets
-// a scattering surface.
+// The forward photon map (METHOD eq. 2): photons from the lights, gathered where a backward ray
+// meets a scattering surface.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,8 @@
 
 namespace lucerna::optics {
 
-/// Number of the patch whose kernels may hold the point; points of sensor planes follow the patches.
+/// Number of the patch whose kernels may hold the point; points of sensor planes follow the
+/// patches.
 inline std::uint32_t kernel_patch(const Stage& stage, const SurfacePoint& p) {
     return p.object == no_object ? stage.patch_count() + p.patch : stage.patch_index(p);
 }

@@ -95,8 +95,8 @@ void trace_forward(const Phase& phase, RandomPurpose purpose, std::uint32_t inde
             arrive({encounter->point, path.ray.direction, path.weight, history, path.hero_only});
             // A surface with both kinds of lobes lets the path go on by the specular one.
         }
-        const SurfaceOptics at = optics_at(phase, encounter->medium_above, encounter->medium_below,
-                                           path.hero_only);
+        const SurfaceOptics at =
+            optics_at(phase, encounter->medium_above, encounter->medium_below, path.hero_only);
         const double u_lobe = random.uniform();
         const double u1 = random.uniform();
         const double u2 = random.uniform();

@@ -11,9 +11,9 @@ namespace lucerna::optics {
 
 /// What a ray met between its light and the present surface.
 enum class History : std::uint8_t {
-    direct = 1,    ///< nothing
-    caustic = 2,   ///< one specular event at least, no scattering
-    indirect = 4   ///< one scattering event at least
+    direct = 1,   ///< nothing
+    caustic = 2,  ///< one specular event at least, no scattering
+    indirect = 4  ///< one scattering event at least
 };
 
 /// A ray bundle from a light that arrives at a surface with scattering properties; it carries
@@ -46,9 +46,9 @@ struct ForwardTally {
 /// How far forward rays are followed.
 enum class Reach { first_scattering, whole_path };
 
-/// Traces ray number `index` of a trace and gives every arrival at a scattering surface to `arrive`.
-/// With `first_scattering` the path ends there. Rays are unbiased samples of the light's flux; the
-/// sum over n rays divided by n estimates it.
+/// Traces ray number `index` of a trace and gives every arrival at a scattering surface to
+/// `arrive`. With `first_scattering` the path ends there. Rays are unbiased samples of the light's
+/// flux; the sum over n rays divided by n estimates it.
 /// @param planes  virtual planes of sensors whose crossings count as arrivals too, or nullptr.
 void trace_forward(const Phase& phase, RandomPurpose purpose, std::uint32_t index, Reach reach,
                    const SensorPlanes* planes, ForwardTally& tally,

@@ -10,23 +10,23 @@ namespace lucerna::optics {
 
 struct Path {
     Ray ray;
-    SurfacePoint start;       ///< where the ray leaves; object == no_object in free space
-    MediumStack media;        ///< the solids that hold the current segment
-    Lanes weight;             ///< forward: spectral flux [W/nm]; backward: throughput
-    bool hero_only = false;   ///< behind a dispersive refraction only the hero lane counts
+    SurfacePoint start;      ///< where the ray leaves; object == no_object in free space
+    MediumStack media;       ///< the solids that hold the current segment
+    Lanes weight;            ///< forward: spectral flux [W/nm]; backward: throughput
+    bool hero_only = false;  ///< behind a dispersive refraction only the hero lane counts
     std::uint32_t lossless_events = 0;  ///< in a row
 };
 
 /// A surface at the end of a segment, before the path reacts to it.
 struct Encounter {
     SurfacePoint point;
-    Lanes transmittance;      ///< internal, of the segment that led here
+    Lanes transmittance;         ///< internal, of the segment that led here
     BsdfId bsdf = pass_through;  ///< of the side that the path meets; pass_through: does not act
-    Frame frame;              ///< local frame of the BSDF, z along the normal
-    Vec3 wo;                  ///< local direction back along the path
+    Frame frame;                 ///< local frame of the BSDF, z along the normal
+    Vec3 wo;                     ///< local direction back along the path
     ObjectId medium_above = no_object, medium_below = no_object;  ///< acting solids on both sides
-    MediumStack media_beyond; ///< behind the surface, seen from the path
-    bool consistent = true;   ///< false: leaves a solid never entered, or enters one twice
+    MediumStack media_beyond;  ///< behind the surface, seen from the path
+    bool consistent = true;    ///< false: leaves a solid never entered, or enters one twice
 };
 
 /// The next surface along the path, or nothing if the path leaves the scene.
@@ -56,12 +56,12 @@ enum class Fate { goes_on, ended_by_roulette, trapped };
 /// Russian roulette after an event that multiplied the weight by `factor` (largest live lane): the
 /// path survives with probability min(1, factor) and is scaled up accordingly.
 ///
-/// A path that loses nothing is never ended by that. From 256 events in a row without loss on, it is
-/// halved at each power of two by roulette, and after 2^17 such events its light is declared trapped:
-/// a lossless solid holds it for ever, up to one part in 10^5 of leakage per event.
+/// A path that loses nothing is never ended by that. From 1024 events in a row without loss on, it
+/// is halved at each power of two by roulette, and after 2^16 such events its light is declared
+/// trapped: a lossless solid holds it for ever, up to one part in 10^5 of leakage per event.
 Fate roulette(Path& path, float factor, RandomStream& random);
 
-inline constexpr std::uint32_t first_lossless_roulette = 256;
-inline constexpr std::uint32_t trapped_after_events = 1u << 17;
+inline constexpr std::uint32_t first_lossless_roulette = 1024;
+inline constexpr std::uint32_t trapped_after_events = 1u << 16;
 
 }  // namespace lucerna::optics

@@ -16,7 +16,8 @@ public:
     double operator[](std::uint32_t patch) const { return radii_m_[patch]; }
 
     /// Radii of a phase: r_i^2 = r_1^2 i^(alpha - 1) with alpha = 2/3, which balances variance
-    /// O(N^-alpha) and bias O(N^(alpha - 1)) of the mean (Knaus and Zwicker, TOG 30(3), 2011, sec. 5).
+    /// O(N^-alpha) and bias O(N^(alpha - 1)) of the mean (Knaus and Zwicker, TOG 30(3), 2011, sec.
+    /// 5).
     Radii at_phase(std::uint32_t number) const;
 
 private:

@@ -13,6 +13,11 @@ constexpr std::size_t samples_per_block = 1024;
 // Backward rays that all sensors of an observer share in a phase, within limits per point.
 constexpr std::size_t sensor_samples_per_phase = 20000;
 
+std::size_t tiles_along(std::size_t pixels) {
+    constexpr std::size_t size = Image::tile_size;
+    return (pixels + size - 1) / size;
+}
+
 std::size_t bins_of(const Observer& observer) {
     if (const auto* camera = std::get_if<Camera>(&observer)) {
         return static_cast<std::size_t>(camera->width) * static_cast<std::size_t>(camera->height);
@@ -42,6 +47,14 @@ Readings::Readings(const SceneParts& parts, const Settings& settings)
         observers_.push_back({i, bins, count, static_cast<std::uint32_t>(samples),
                               static_cast<std::uint32_t>(samples_)});
         is_camera_.push_back(camera);
+        means_.emplace_back();
+        if (camera) {
+            const Camera& view = std::get<Camera>(parts.observers[i]);
+            ImageMeans& means = means_.back();
+            means.width = static_cast<std::size_t>(view.width);
+            means.height = static_cast<std::size_t>(view.height);
+            means.tiles.resize(tiles_along(means.width) * tiles_along(means.height));
+        }
         bins += count;
         samples_ += count * samples;
     }
@@ -62,15 +75,43 @@ void Readings::add(const Phase& phase, std::size_t bin, const Lanes& radiance) {
     for (int lane = 0; lane < spectral::lane_count; ++lane) {
         const double nm = phase.wavelengths.wavelength_nm[static_cast<std::size_t>(lane)];
         const double place = (nm - spectral::min_wavelength_nm) / range_nm;
-        const auto spectral_bin = std::min(
-            spectral_bins_ - 1,
-            static_cast<std::size_t>(place * static_cast<double>(spectral_bins_)));
+        const auto spectral_bin =
+            std::min(spectral_bins_ - 1,
+                     static_cast<std::size_t>(place * static_cast<double>(spectral_bins_)));
         spectral_sum_[bin * spectral_bins_ + spectral_bin] +=
             static_cast<double>(radiance[lane] * phase.wavelengths.interval_nm[lane]);
     }
 }
 
+void Readings::fold_means(const ObserverBins& bins, ImageMeans& means) {
+    const std::size_t columns = tiles_along(means.width);
+    std::vector<double> sums(means.tiles.size());
+    std::vector<double> biases(means.tiles.size());
+    std::vector<double> pixels(means.tiles.size());
+    for (std::size_t row = 0; row < means.height; ++row) {
+        for (std::size_t column = 0; column < means.width; ++column) {
+            const PhaseValue& value = phase_[bins.first_bin + row * means.width + column];
+            const std::size_t tile = row / Image::tile_size * columns + column / Image::tile_size;
+            sums[tile] += value.y;
+            biases[tile] += value.bias;
+            pixels[tile] += 1.0;
+        }
+    }
+    double sum = 0.0;
+    double bias = 0.0;
+    for (std::size_t tile = 0; tile < means.tiles.size(); ++tile) {
+        means.tiles[tile].add(sums[tile] / pixels[tile], biases[tile] / pixels[tile]);
+        sum += sums[tile];
+        bias += biases[tile];
+    }
+    const auto count = static_cast<double>(bins.count);
+    means.whole.add(sum / count, bias / count);
+}
+
 void Readings::fold(int threads) {
+    for_each_block(observers_.size(), threads, [&](std::size_t i) {
+        if (is_camera_[i]) fold_means(observers_[i], means_[i]);
+    });
     constexpr std::size_t block = 1 << 14;
     for_each_block((phase_.size() + block - 1) / block, threads, [&](std::size_t b) {
         const std::size_t end = std::min(phase_.size(), (b + 1) * block);
@@ -86,7 +127,6 @@ void Readings::fold(int threads) {
 double Readings::delta() const {
     double variance = 0.0;
     double square = 0.0;
-    double bias = 0.0;
     for (std::size_t i = 0; i < observers_.size(); ++i) {
         if (!is_camera_[i]) continue;
         for (std::size_t bin = 0; bin < observers_[i].count; ++bin) {
@@ -94,7 +134,6 @@ double Readings::delta() const {
             const double error = estimate.standard_error();
             variance += error * error;
             square += estimate.mean() * estimate.mean();
-            bias += estimate.bias() * estimate.bias();
         }
     }
     return square > 0.0 ? std::sqrt(variance / square) : 0.0;
@@ -124,8 +163,11 @@ std::vector<Image> Readings::images(const SceneParts& parts) const {
         image.width = camera.width;
         image.height = camera.height;
         const auto first = static_cast<std::ptrdiff_t>(bins.first_bin);
-        image.luminance.assign(luminance_.begin() + first,
-                               luminance_.begin() + first + static_cast<std::ptrdiff_t>(bins.count));
+        image.luminance.assign(
+            luminance_.begin() + first,
+            luminance_.begin() + first + static_cast<std::ptrdiff_t>(bins.count));
+        image.tiles = means_[i].tiles;
+        image.mean = means_[i].whole;
         double variance = 0.0;
         double square = 0.0;
         double bias = 0.0;
@@ -176,8 +218,8 @@ std::vector<Quantity> Readings::quantities(const SceneParts& parts) const {
             for (std::size_t k = 0; k < bins.count; ++k) {
                 const auto columns = static_cast<std::size_t>(std::max(1, points->columns));
                 const std::string name =
-                    points->columns > 0 ? fmt::format("{}[{},{}]", points->name, k % columns,
-                                                      k / columns)
+                    points->columns > 0
+                        ? fmt::format("{}[{},{}]", points->name, k % columns, k / columns)
                     : bins.count > 1 ? fmt::format("{}[{}]", points->name, k)
                                      : points->name;
                 report(name, "illuminance", "lx", bins.first_bin + k);

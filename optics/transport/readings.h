@@ -55,9 +55,18 @@ private:
         double x = 0.0, y = 0.0, z = 0.0, bias = 0.0;
     };
 
+    // Means over parts of an image, empty for sensors.
+    struct ImageMeans {
+        std::size_t width = 0, height = 0;
+        std::vector<Estimate> tiles;
+        Estimate whole;
+    };
+    void fold_means(const ObserverBins& bins, ImageMeans& means);
+
     std::vector<ObserverBins> observers_;
     std::vector<BinBlock> blocks_;
-    std::vector<bool> is_camera_;  // per ObserverBins
+    std::vector<bool> is_camera_;    // per ObserverBins
+    std::vector<ImageMeans> means_;  // per ObserverBins
     std::uint64_t samples_ = 0;
     std::vector<PhaseValue> phase_;
     std::vector<Estimate> luminance_;

@@ -15,12 +15,18 @@ namespace lucerna::optics {
 struct Image {
     std::string name;
     int width = 0, height = 0;
-    std::vector<Estimate> luminance;       ///< per pixel [cd/m2], with kernel bias
-    std::vector<float> x, z;               ///< tristimulus values X, Z on the scale of Y = luminance
-    std::vector<double> bin_edges_nm;      ///< spectral_bins + 1 edges, or empty
+    std::vector<Estimate> luminance;   ///< per pixel [cd/m2], with kernel bias
+    std::vector<float> x, z;           ///< tristimulus values X, Z on the scale of Y = luminance
+    std::vector<double> bin_edges_nm;  ///< spectral_bins + 1 edges, or empty
     std::vector<float> spectral_radiance;  ///< [pixel * bins + bin], mean in the bin [W/(m2 sr nm)]
-    double delta = 0.0;                    ///< METHOD eq. 6
-    double delta_bias = 0.0;               ///< the same norm of the measured kernel bias
+    /// Mean luminance of tiles of tile_size x tile_size pixels (smaller at the right and lower rim)
+    /// and of the whole image. Taken per phase: the errors of pixels are correlated by shared
+    /// photons, so the error of a mean does not follow from those of its pixels.
+    static constexpr int tile_size = 16;
+    std::vector<Estimate> tiles;
+    Estimate mean;
+    double delta = 0.0;       ///< METHOD eq. 6
+    double delta_bias = 0.0;  ///< the same norm of the measured kernel bias
 };
 
 /// One reported number.
@@ -38,20 +44,20 @@ struct FluxBalance {
     std::map<std::string, double> absorbed;  ///< per material or medium
     double escaped = 0.0;                    ///< left the scene
     double trapped = 0.0;                    ///< held for ever by a lossless solid
-    double inconsistent_medium = 0.0;        ///< lost where the geometry of solids contradicts itself
-    double numerical = 0.0;                  ///< lost to undefined numbers
-    double roulette_residue = 0.0;           ///< of Russian roulette, zero on average
-    double closure() const;                  ///< emitted minus all of the above [lm]
+    double inconsistent_medium = 0.0;  ///< lost where the geometry of solids contradicts itself
+    double numerical = 0.0;            ///< lost to undefined numbers
+    double roulette_residue = 0.0;     ///< of Russian roulette, zero on average
+    double closure() const;            ///< emitted minus all of the above [lm]
 };
 
 struct RayCounts {
-    std::uint64_t backward_rays = 0;          ///< paths from observers
-    std::uint64_t caustic_rays = 0;           ///< paths from lights, caustic step
-    std::uint64_t secondary_rays = 0;         ///< paths from lights, secondary step
+    std::uint64_t backward_rays = 0;   ///< paths from observers
+    std::uint64_t caustic_rays = 0;    ///< paths from lights, caustic step
+    std::uint64_t secondary_rays = 0;  ///< paths from lights, secondary step
     std::uint64_t backward_segments = 0, forward_segments = 0, shadow_segments = 0;
-    std::uint64_t forward_photons = 0;        ///< stored in forward maps
-    std::uint64_t backward_photons = 0;       ///< stored in backward maps
-    std::uint64_t scattering_hits = 0;        ///< hits of secondary rays on scattering surfaces
+    std::uint64_t forward_photons = 0;   ///< stored in forward maps
+    std::uint64_t backward_photons = 0;  ///< stored in backward maps
+    std::uint64_t scattering_hits = 0;   ///< hits of secondary rays on scattering surfaces
     std::uint64_t deposits = 0;
     double backward_s = 0.0, caustic_s = 0.0, secondary_s = 0.0, maps_s = 0.0;  ///< wall time
 };

@@ -14,8 +14,14 @@ std::uint32_t append(std::vector<Item>& list, Item item) {
 SpectrumId SceneParts::add(spectral::Spectrum spectrum) {
     return append(spectra, std::move(spectrum));
 }
-BsdfId SceneParts::add(Bsdf bsdf) { return append(bsdfs, std::move(bsdf)); }
-MediumId SceneParts::add(Medium medium) { return append(media, std::move(medium)); }
-ObjectId SceneParts::add(Object object) { return append(objects, std::move(object)); }
+BsdfId SceneParts::add(Bsdf bsdf) {
+    return append(bsdfs, std::move(bsdf));
+}
+MediumId SceneParts::add(Medium medium) {
+    return append(media, std::move(medium));
+}
+ObjectId SceneParts::add(Object object) {
+    return append(objects, std::move(object));
+}
 
 }  // namespace lucerna::optics

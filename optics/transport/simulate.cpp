@@ -23,8 +23,8 @@ constexpr std::uint32_t rays_per_block = 256;
 constexpr std::uint32_t blocks_per_chunk = 64;  // deposits of a chunk are held at once
 constexpr std::uint32_t pilot_rays = 1 << 14;
 constexpr std::uint32_t min_forward_rays = 20000;
-// Expected photons in a kernel of the first phase: few where the kernel is hidden behind a scattering
-// event, more where it is seen.
+// Expected photons in a kernel of the first phase: few where the kernel is hidden behind a
+// scattering event, more where it is seen.
 constexpr double photons_per_hidden_kernel = 8.0;
 constexpr double photons_per_seen_kernel = 24.0;
 
@@ -66,8 +66,8 @@ public:
             Stopwatch watch;
             ForwardTally caustic_tally(stage_.parts());
             const Reach reach = stores_all ? Reach::whole_path : Reach::first_scattering;
-            std::vector<Photon> photons = trace_photons(phase, RandomPurpose::caustic, reach,
-                                                        forward_rays_, caustic_tally);
+            std::vector<Photon> photons =
+                trace_photons(phase, RandomPurpose::caustic, reach, forward_rays_, caustic_tally);
             counts_.caustic_s += watch.seconds();
             counts_.caustic_rays += forward_rays_;
             counts_.forward_photons += photons.size();
@@ -103,11 +103,12 @@ public:
             Stopwatch watch;
             trace_and_deposit(phase, backward_map, tally);
             for_each_block(blocks.size(), threads_, [&](std::size_t i) {
-                backward_map.read(i, forward_rays_, [&](std::uint32_t bin, const Lanes& radiance,
-                                                        const Lanes& inner) {
-                    readings_.add(phase, bin, radiance);
-                    readings_.add_bias(bin, 2.0 * phase.luminous(radiance - inner));
-                });
+                backward_map.read(
+                    i, forward_rays_,
+                    [&](std::uint32_t bin, const Lanes& radiance, const Lanes& inner) {
+                        readings_.add(phase, bin, radiance);
+                        readings_.add_bias(bin, 2.0 * phase.luminous(radiance - inner));
+                    });
             });
             counts_.secondary_s += watch.seconds();
         }
@@ -154,7 +155,9 @@ public:
     const SceneParts& parts() const { return stage_.parts(); }
 
 private:
-    static constexpr std::uint8_t mask(History history) { return static_cast<std::uint8_t>(history); }
+    static constexpr std::uint8_t mask(History history) {
+        return static_cast<std::uint8_t>(history);
+    }
 
     bool needs_forward_map() const {
         return collection_.needs_forward_map(stage_.has_caustics(), planes_.count() > 0);
@@ -171,16 +174,16 @@ private:
             return pilot_radii(stage_, photons, photons_per_kernel, scale, planes_.count(),
                                planes_.margin_m());
         };
-        seen_radii_ = radii(collection_.first_gather & mask(History::indirect)
-                                ? Reach::whole_path
-                                : Reach::first_scattering,
-                            photons_per_seen_kernel);
+        seen_radii_ =
+            radii(collection_.first_gather & mask(History::indirect) ? Reach::whole_path
+                                                                     : Reach::first_scattering,
+                  photons_per_seen_kernel);
         hidden_radii_ = radii(Reach::whole_path, photons_per_hidden_kernel);
     }
 
     // Photons of all rays of a trace, in the order of the rays. Those of a trace to the first
-    // scattering event are the caustic ones; of whole paths, all but direct light if a map of them is
-    // gathered at seen surfaces.
+    // scattering event are the caustic ones; of whole paths, all but direct light if a map of them
+    // is gathered at seen surfaces.
     std::vector<Photon> trace_photons(const Phase& phase, RandomPurpose purpose, Reach reach,
                                       std::uint32_t rays, ForwardTally& tally) {
         const std::uint32_t blocks = (rays + rays_per_block - 1) / rays_per_block;
@@ -336,14 +339,13 @@ Result simulate(const SceneParts& parts, const Settings& asked,
     while (stopped_by.empty()) {
         simulation.run_phase(phase++);
         const double elapsed_s = watch.seconds();
-        stopped_by = rule.check(phase, simulation.readings(), simulation.worst_receiver_error(),
-                                elapsed_s);
+        stopped_by =
+            rule.check(phase, simulation.readings(), simulation.worst_receiver_error(), elapsed_s);
         if (stopped_by.empty() && interrupted && interrupted->load()) stopped_by = "interruption";
         if (on_progress) {
             const RayCounts& counts = simulation.counts();
-            const double rays = static_cast<double>(counts.backward_segments +
-                                                    counts.forward_segments +
-                                                    counts.shadow_segments);
+            const double rays = static_cast<double>(
+                counts.backward_segments + counts.forward_segments + counts.shadow_segments);
             on_progress({.phase = phase,
                          .delta = phase > 1 ? simulation.readings().delta() : std::nan(""),
                          .delta_wanted = has_cameras ? settings.image_accuracy : std::nullopt,

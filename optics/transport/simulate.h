@@ -20,11 +20,10 @@ struct Progress {
     std::optional<double> left_s;
 };
 
-/// Simulates until the accuracy asked for, the time limit or the number of phases is reached; without
-/// any of them until the images have delta = 2 % and the sensors a standard error of 1 %.
-/// Same scene, settings and seed give the same bits for any number of threads, unless a time limit or
-/// an interruption ends the run.
-/// Throws InputError if a part of the scene is inconsistent.
+/// Simulates until the accuracy asked for, the time limit or the number of phases is reached;
+/// without any of them until the images have delta = 2 % and the sensors a standard error of 1 %.
+/// Same scene, settings and seed give the same bits for any number of threads, unless a time limit
+/// or an interruption ends the run. Throws InputError if a part of the scene is inconsistent.
 /// @param interrupted  checked after each phase; the result so far is returned when it turns true.
 Result simulate(const SceneParts& parts, const Settings& settings,
                 const std::function<void(const Progress&)>& on_progress = {},

@@ -37,7 +37,8 @@ std::vector<double> luminous_fluxes(const SceneParts& parts) {
 const SceneParts& checked(const SceneParts& parts) {
     Diagnostics diagnostics;
     if (parts.lights.empty()) diagnostics.add({}, "the scene has no light; expected at least one");
-    if (parts.objects.empty()) diagnostics.add({}, "the scene has no object; expected at least one");
+    if (parts.objects.empty())
+        diagnostics.add({}, "the scene has no object; expected at least one");
     if (parts.observers.empty() && parts.receivers.empty()) {
         diagnostics.add({}, "the scene has nothing that measures; expected a camera or a sensor");
     }
@@ -50,9 +51,10 @@ const SceneParts& checked(const SceneParts& parts) {
     }
     for (const Object& object : parts.objects) {
         if (object.interior && !is_solid(object.shape)) {
-            diagnostics.add({}, fmt::format("object \"{}\" has a medium inside but is not a closed, "
-                                            "outward oriented solid",
-                                            object.name));
+            diagnostics.add({},
+                            fmt::format("object \"{}\" has a medium inside but is not a closed, "
+                                        "outward oriented solid",
+                                        object.name));
         }
     }
     diagnostics.throw_if_any();

@@ -1,0 +1,52 @@
+// The same seed gives the same bits for any number of threads.
+#include <catch2/catch.hpp>
+#include <cstring>
+
+#include "optics/transport/simulate.h"
+#include "tests/support/cornell_scenes.h"
+
+using namespace lucerna;
+using namespace lucerna::optics;
+
+namespace {
+
+Result run(int threads, std::uint64_t seed, Method method) {
+    auto scene = test::cornell_caustic(40);
+    scene.points({{0.5, 0.4, 0.5}, {0.2, 0.4, 0.5}}, Vec3::UnitY());
+    scene.receiver(0);
+    Settings settings;
+    settings.method = method;
+    settings.threads = threads;
+    settings.seed = seed;
+    settings.max_phases = 3;
+    settings.forward_rays = 5000;
+    settings.spectral_bins = 10;
+    return simulate(scene.parts, settings);
+}
+
+bool same_bits(const Result& a, const Result& b) {
+    const Image& p = a.images.front();
+    const Image& q = b.images.front();
+    const auto same = [](const auto& u, const auto& v) {
+        return u.size() == v.size() &&
+               std::memcmp(u.data(), v.data(), u.size() * sizeof(u[0])) == 0;
+    };
+    bool equal = same(p.luminance, q.luminance) && same(p.x, q.x) && same(p.z, q.z) &&
+                 same(p.spectral_radiance, q.spectral_radiance);
+    for (std::size_t i = 0; i < a.quantities.size(); ++i) {
+        equal = equal && a.quantities[i].estimate.mean() == b.quantities[i].estimate.mean();
+    }
+    return equal && a.flux_balance_lm.absorbed == b.flux_balance_lm.absorbed;
+}
+
+}  // namespace
+
+TEST_CASE("Same seed, same bits with 1, 2, 3 and 8 threads", "[golden]") {
+    const auto method = GENERATE(Method::combined, Method::forward, Method::backward, Method::path);
+    const Result one = run(1, 5, method);
+    for (const int threads : {2, 3, 8}) {
+        INFO(threads << " threads, method " << static_cast<int>(method));
+        CHECK(same_bits(one, run(threads, 5, method)));
+    }
+    CHECK_FALSE(same_bits(one, run(1, 6, method)));
+}

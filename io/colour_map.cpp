@@ -1,6 +1,5 @@
 #include "io/colour_map.h"
 
-#include <Eigen/LU>
 
 namespace lucerna::io {
 namespace {

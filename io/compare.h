@@ -8,27 +8,29 @@
 
 namespace lucerna::io {
 
-/// A number and the half width of its 95 % interval; without a width where an image states no
-/// standard errors.
+/// A number and the half width of the 95 % interval of its noise; without a width where no image
+/// states its errors.
 struct BoundedValue {
     double value = 0.0;
     std::optional<double> expanded_uncertainty;
 };
 
-/// The 16 x 16 tile whose mean luminance is furthest from the reference's.
+/// The tile of 16 x 16 pixels whose mean luminance is furthest from the reference's.
 struct WorstTile {
     int x = 0, y = 0;             ///< its top left pixel
     double reference_mean = 0.0;  ///< [cd/m2]
     double image_mean = 0.0;      ///< [cd/m2]
-    /// image_mean - reference_mean relative to the mean of the whole reference, with the bound for
-    /// errors that are fully correlated within the tile.
-    BoundedValue difference;
+    BoundedValue
+        difference;  ///< image_mean - reference_mean, relative to the mean of the whole reference
 };
 
-/// Sums run over the pixels that count. Standard errors of different pixels are taken as
-/// independent for the RMSE. Pixels of one run share photons and wavelengths, so means also carry
-/// the bound for full correlation, which holds whatever the correlation is: the deviation of a sum
-/// is at most the sum of the deviations.
+/// Sums run over the pixels that count.
+///
+/// Pixels of one run share photons and wavelengths, so the noise of a mean does not follow from
+/// theirs. It is taken from the file where that states it; else, and under a mask, it is bounded by
+/// the mean of the standard errors, which holds for any correlation. The bound of the RMSE takes
+/// pixels as independent. Kernel bias is a part of what is compared, not of the bounds. An image
+/// that states no errors counts as exact.
 struct Comparison {
     int width = 0, height = 0;
     std::size_t pixels = 0;            ///< that count
@@ -37,8 +39,7 @@ struct Comparison {
     /// The same with the noise variance of both images subtracted, 0 where noise explains all of
     /// it.
     std::optional<double> noise_free_relative_rmse;
-    BoundedValue ratio_of_means;                         ///< image / reference, pixels independent
-    std::optional<double> ratio_correlated_uncertainty;  ///< half width for fully correlated pixels
+    BoundedValue ratio_of_means;  ///< image / reference
     WorstTile worst_tile;
 };
 

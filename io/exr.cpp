@@ -11,6 +11,7 @@
 #include <ImfStandardAttributes.h>
 #include <ImfStringAttribute.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <stdexcept>
@@ -116,6 +117,29 @@ std::vector<float> read_channel(Imf::InputFile& file, const std::string& name) {
     return values;
 }
 
+// What write_exr says about the errors of an image, as far as the file has it.
+void read_errors(Imf::InputFile& file, LuminanceImage& image) {
+    const Imf::Header& header = file.header();
+    if (header.channels().findChannel("luminance.standard_error") == nullptr) return;
+    const std::vector<float> errors = read_channel(file, "luminance.standard_error");
+    image.standard_error.assign(errors.begin(), errors.end());
+    if (const auto* phases = header.findTypedAttribute<Imf::IntAttribute>("phases")) {
+        image.phases = static_cast<std::uint32_t>(std::max(0, phases->value()));
+    }
+    if (const auto* error = header.findTypedAttribute<Imf::DoubleAttribute>("meanStandardError")) {
+        image.mean_standard_error = error->value();
+    }
+    const auto* tile_size = header.findTypedAttribute<Imf::IntAttribute>("tileSize");
+    const auto* tiles = header.findTypedAttribute<Imf::FloatVectorAttribute>("tileStandardError");
+    constexpr int size = optics::Image::tile_size;
+    const auto count = static_cast<std::size_t>((image.width + size - 1) / size) *
+                       static_cast<std::size_t>((image.height + size - 1) / size);
+    if (tile_size != nullptr && tile_size->value() == size && tiles != nullptr &&
+        tiles->value().size() == count) {
+        image.tile_standard_error.assign(tiles->value().begin(), tiles->value().end());
+    }
+}
+
 LuminanceImage read(const std::filesystem::path& path) {
     const auto fail = [&](const std::string& message) {
         throw InputError({path.string()}, message);
@@ -125,7 +149,9 @@ LuminanceImage read(const std::filesystem::path& path) {
     const Imf::ChannelList& channels = header.channels();
     const auto has = [&](const char* name) { return channels.findChannel(name) != nullptr; };
     const Imath::Box2i window = header.dataWindow();
-    LuminanceImage image{window.max.x - window.min.x + 1, window.max.y - window.min.y + 1, {}, {}};
+    LuminanceImage image;
+    image.width = window.max.x - window.min.x + 1;
+    image.height = window.max.y - window.min.y + 1;
     if (long{image.width} * image.height > max_pixels) {
         fail(fmt::format("has {} x {} pixels; at most {} are read", image.width, image.height,
                          max_pixels));
@@ -158,10 +184,7 @@ LuminanceImage read(const std::filesystem::path& path) {
             fail(fmt::format("has no finite value at pixel [{}, {}]", i % width, i / width));
         }
     }
-    if (names[0] == "luminance.Y" && has("luminance.standard_error")) {
-        const std::vector<float> errors = read_channel(file, "luminance.standard_error");
-        image.standard_error.assign(errors.begin(), errors.end());
-    }
+    if (names[0] == "luminance.Y") read_errors(file, image);
     return image;
 }
 
@@ -174,8 +197,15 @@ void write_exr(const std::filesystem::path& path, const optics::Image& image,
     planes.add("luminance.standard_error",
                [&](std::size_t i) { return image.luminance[i].standard_error(); });
     planes.add("luminance.bias", [&](std::size_t i) { return image.luminance[i].bias(); });
-    planes.header().insert("units", Imf::StringAttribute("cd/m2"));
-    planes.header().insert("delta", Imf::DoubleAttribute(image.delta));
+    std::vector<float> tile_errors;
+    for (const Estimate& tile : image.tiles)
+        tile_errors.push_back(static_cast<float>(tile.standard_error()));
+    Imf::Header& header = planes.header();
+    header.insert("units", Imf::StringAttribute("cd/m2"));
+    header.insert("delta", Imf::DoubleAttribute(image.delta));
+    header.insert("meanStandardError", Imf::DoubleAttribute(image.mean.standard_error()));
+    header.insert("tileSize", Imf::IntAttribute(optics::Image::tile_size));
+    header.insert("tileStandardError", Imf::FloatVectorAttribute(tile_errors));
     planes.write(path);
 }
 

@@ -39,7 +39,7 @@ void write_exr(const std::filesystem::path& path, const optics::Image& image,
 void write_spectral_exr(const std::filesystem::path& path, const optics::Image& image,
                         const Provenance& provenance);
 
-/// Reads luminance.Y with luminance.standard_error where present, else Y, else R, G, B weighted to
+/// Reads luminance.Y with its errors where present, else Y, else R, G, B weighted to
 /// luminance by BT.709 and whiteLuminance. Throws InputError.
 LuminanceImage read_exr(const std::filesystem::path& path);
 

@@ -1,6 +1,5 @@
 #include "io/luminance_image.h"
 
-#include <Eigen/LU>
 #include <fstream>
 
 #include "core/diagnostics.h"

@@ -70,7 +70,9 @@ LuminanceImage read_pfm(const std::filesystem::path& path) {
                          row_bytes * static_cast<std::size_t>(*height)));
     }
 
-    LuminanceImage image{*width, *height, {}, {}};
+    LuminanceImage image;
+    image.width = *width;
+    image.height = *height;
     image.luminance.resize(static_cast<std::size_t>(*width) * *height);
     const Vec3 weights = channels == 3 ? luminance_of_rgb() : Vec3(1.0, 0.0, 0.0);
     std::vector<unsigned char> row(row_bytes);

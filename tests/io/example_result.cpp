@@ -45,6 +45,9 @@ optics::Image example_image() {
             }
         }
     }
+    for (const double mean : {1.0, 2.0, 3.0, 4.0})
+        image.tiles.push_back(estimate(mean, 0.25 * mean));
+    image.mean = estimate(962.5, 0.125);
     image.delta = 0.0193;
     image.delta_bias = 0.004;
     return image;

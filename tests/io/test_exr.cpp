@@ -97,8 +97,9 @@ TEST_CASE("RGB of the equal-energy white is that of BT.709", "[unit][exr]") {
         image.x[i] = image.z[i] = static_cast<float>(image.luminance[i].mean());
     }
     write_exr(folder / "view.exr", image, provenance);
-    // Row sums of the XYZ to RGB matrix printed in IEC 61966-2-1: 3.2406 - 1.5372 - 0.4986, and so on. It is the
-    // inverse of a matrix that was rounded to four decimals, and is rounded itself: 3e-4 over three terms.
+    // Row sums of the XYZ to RGB matrix printed in IEC 61966-2-1: 3.2406 - 1.5372 - 0.4986, and so
+    // on. It is the inverse of a matrix that was rounded to four decimals, and is rounded itself:
+    // 3e-4 over three terms.
     CHECK_THAT(double{channel(folder / "view.exr", "R")[0]}, WithinAbs(1.2048, 3e-4));
     CHECK_THAT(double{channel(folder / "view.exr", "G")[0]}, WithinAbs(0.9484, 3e-4));
     CHECK_THAT(double{channel(folder / "view.exr", "B")[0]}, WithinAbs(0.9087, 3e-4));
@@ -153,6 +154,9 @@ TEST_CASE("What is written reads back, with its error", "[unit][exr]") {
     REQUIRE(read.height == 20);
     CHECK(read.luminance[24] == 101.0);  // the start of the second row from the top
     CHECK_THAT(read.standard_error[24], WithinRel(1.01, 1e-6));
+    CHECK(read.phases == 7);
+    CHECK_THAT(read.mean_standard_error.value(), WithinRel(0.125, 1e-6));
+    CHECK(read.tile_standard_error == std::vector<double>{0.25, 0.5, 0.75, 1.0});
 }
 
 TEST_CASE("Plain colour images read as luminance, scaled by whiteLuminance", "[unit][exr]") {

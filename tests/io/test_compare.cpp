@@ -12,8 +12,10 @@ namespace {
 
 LuminanceImage flat(int width, int height, double luminance, double standard_error = 0.0) {
     const auto pixels = static_cast<std::size_t>(width * height);
-    LuminanceImage image{
-        .width = width, .height = height, .luminance = std::vector<double>(pixels, luminance)};
+    LuminanceImage image;
+    image.width = width;
+    image.height = height;
+    image.luminance.assign(pixels, luminance);
     if (standard_error > 0.0) image.standard_error.assign(pixels, standard_error);
     return image;
 }

@@ -1,0 +1,130 @@
+#include "core/statistics.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <vector>
+
+#include "core/random.h"
+
+using namespace lucerna;
+using Catch::Matchers::WithinAbs;
+using Catch::Matchers::WithinRel;
+
+TEST_CASE("Quantiles of Student's t are those of the published tables", "[unit]") {
+    // NIST/SEMATECH e-Handbook 1.3.6.7.2 and Fisher and Yates; two-sided coverage
+    CHECK_THAT(student_t(0.95, 1.0), WithinRel(12.7062047, 1e-8));
+    CHECK_THAT(student_t(0.95, 2.0), WithinRel(4.30265273, 1e-8));
+    CHECK_THAT(student_t(0.95, 9.0), WithinRel(2.26215716, 1e-8));
+    CHECK_THAT(student_t(0.95, 29.0), WithinRel(2.04522964, 1e-8));
+    CHECK_THAT(student_t(0.99, 9.0), WithinRel(3.24983554, 1e-8));
+    CHECK_THAT(student_t(0.90, 120.0), WithinRel(1.65765090, 1e-8));
+    // many degrees: the normal distribution
+    CHECK_THAT(student_t(0.95, 1e7), WithinRel(1.95996398, 1e-6));
+}
+
+TEST_CASE("Quantiles of Student's t agree with closed forms", "[property]") {
+    const double coverage = GENERATE(0.5, 0.6827, 0.9, 0.95, 0.99, 0.9999);
+    // one degree: Cauchy; two degrees: c sqrt(2 / (1 - c^2))
+    CHECK_THAT(student_t(coverage, 1.0),
+               WithinRel(std::tan(0.5 * std::acos(-1.0) * coverage), 1e-8));
+    CHECK_THAT(student_t(coverage, 2.0),
+               WithinRel(coverage * std::sqrt(2.0 / (1.0 - coverage * coverage)), 1e-8));
+}
+
+TEST_CASE("Mean, bias and their standard errors", "[unit]") {
+    Estimate estimate;
+    // 2, 4, 4, 4, 5, 5, 7, 9: mean 5, sum of squares 32, so that SE^2 = 32 / (8 * 7)
+    for (const double value : {2.0, 4.0, 4.0, 4.0, 5.0, 5.0, 7.0, 9.0}) {
+        estimate.add(value, 0.1 * value);
+    }
+    CHECK(estimate.count() == 8);
+    CHECK_THAT(estimate.mean(), WithinRel(5.0, 1e-15));
+    CHECK_THAT(estimate.standard_error(), WithinRel(std::sqrt(32.0 / 56.0), 1e-14));
+    CHECK_THAT(estimate.bias(), WithinRel(0.5, 1e-14));
+    CHECK_THAT(estimate.bias_standard_error(), WithinRel(0.1 * std::sqrt(32.0 / 56.0), 1e-12));
+}
+
+TEST_CASE("Too few phases have no error bar", "[unit]") {
+    Estimate estimate;
+    CHECK(estimate.count() == 0);
+    CHECK(estimate.mean() == 0.0);
+    CHECK(std::isinf(estimate.standard_error()));
+    estimate.add(3.0);
+    CHECK(estimate.mean() == 3.0);
+    CHECK(std::isinf(estimate.standard_error()));
+    CHECK(std::isinf(estimate.expanded_uncertainty()));
+    estimate.add(3.0);
+    CHECK(estimate.standard_error() == 0.0);
+}
+
+TEST_CASE("A large constant does not make the error negative or undefined", "[unit]") {
+    Estimate estimate;
+    for (int i = 0; i < 100; ++i) estimate.add(1e8 + 1e-9 * i);
+    CHECK(estimate.standard_error() >= 0.0);
+    CHECK(std::isfinite(estimate.standard_error()));
+}
+
+TEST_CASE("Merging runs equals one long run", "[property]") {
+    RandomStream random(2, 0, RandomPurpose::test, 0);
+    Estimate all;
+    Estimate first;
+    Estimate second;
+    for (int i = 0; i < 1000; ++i) {
+        const double value = random.uniform();
+        const double bias = random.uniform();
+        all.add(value, bias);
+        (i < 300 ? first : second).add(value, bias);
+    }
+    first.merge(second);
+    CHECK(first.count() == all.count());
+    CHECK_THAT(first.mean(), WithinRel(all.mean(), 1e-13));
+    CHECK_THAT(first.standard_error(), WithinRel(all.standard_error(), 1e-12));
+    CHECK_THAT(first.bias(), WithinRel(all.bias(), 1e-13));
+    CHECK_THAT(first.bias_standard_error(), WithinRel(all.bias_standard_error(), 1e-12));
+}
+
+TEST_CASE("The standard error is the spread of means", "[statistical]") {
+    // Uniform numbers have variance 1/12; 400 of them a standard error of sqrt(1 / 4800).
+    RandomStream random(4, 0, RandomPurpose::test, 0);
+    double mean_square = 0.0;
+    const int runs = 500;
+    for (int run = 0; run < runs; ++run) {
+        Estimate estimate;
+        for (int i = 0; i < 400; ++i) estimate.add(random.uniform());
+        mean_square += std::pow(estimate.standard_error(), 2) / runs;
+    }
+    // Relative spread of a variance of 400 uniform numbers: sqrt(0.8 / 400) = 4.5 %, over 500 runs
+    // 0.2 %; five of it.
+    CHECK_THAT(mean_square, WithinRel(1.0 / 4800.0, 0.01));
+}
+
+TEST_CASE("The expanded uncertainty covers the truth as often as it says", "[statistical]") {
+    // Sums of 12 uniform numbers are nearly normal; 6 phases make t differ much from 2.
+    const double coverage = GENERATE(0.90, 0.95, 0.99);
+    RandomStream random(6, 0, RandomPurpose::test, 0);
+    int covered = 0;
+    int covered_by_two = 0;
+    const int runs = 4000;
+    for (int run = 0; run < runs; ++run) {
+        Estimate estimate;
+        for (int phase = 0; phase < 6; ++phase) {
+            double sum = 0.0;
+            for (int i = 0; i < 12; ++i) sum += random.uniform();
+            estimate.add(sum);
+        }
+        const double error = std::abs(estimate.mean() - 6.0);
+        if (error <= estimate.expanded_uncertainty(coverage)) ++covered;
+        if (error <= 1.96 * estimate.standard_error()) ++covered_by_two;
+    }
+    const double limit = 4.9 * std::sqrt(coverage * (1.0 - coverage) / runs);
+    CHECK_THAT(covered / static_cast<double>(runs), WithinAbs(coverage, limit));
+    // Twin: a normal quantile claims 95 % and does not reach it with six phases.
+    CHECK(covered_by_two / static_cast<double>(runs) < 0.92);
+}
+
+TEST_CASE("A measured bias adds to the expanded uncertainty", "[unit]") {
+    Estimate estimate;
+    for (const double value : {9.0, 10.0, 11.0}) estimate.add(value, -0.5);
+    const double noise = student_t(0.95, 2.0) * std::sqrt(2.0 / 6.0);
+    CHECK_THAT(estimate.expanded_uncertainty(), WithinRel(noise + 0.5, 1e-9));
+}

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "optics/geometry/mesh_edges.h"
 #include "optics/geometry/mesh_search.h"
 
 namespace lucerna::optics {
@@ -33,50 +34,13 @@ void add_normals_and_areas(Mesh& mesh) {
         const Vec3 twice_area =
             (mesh.vertices[b] - mesh.vertices[a]).cross(mesh.vertices[c] - mesh.vertices[a]);
         const double norm = twice_area.norm();
-        if (!(norm > 0.0)) throw std::invalid_argument(fmt::format("triangle {} has no area", i));
+        if (!(0.5 * norm > smallest_triangle_m2 && std::isfinite(norm)))
+            throw std::invalid_argument(
+                fmt::format("triangle {} has no area, or one beyond all bounds", i));
         mesh.normals.push_back(twice_area / norm);
         mesh.areas_m2.push_back(0.5 * norm);
         mesh.cumulative_area_m2.push_back(sum_m2 += 0.5 * norm);
     }
-}
-
-/// For each vertex the first one at the same position.
-std::vector<std::uint32_t> weld(const std::vector<Vec3>& vertices) {
-    const auto key = [&](std::uint32_t i) {
-        // + 0.0 makes -0 and 0 the same
-        return std::tuple(vertices[i].x() + 0.0, vertices[i].y() + 0.0, vertices[i].z() + 0.0);
-    };
-    std::vector<std::uint32_t> order(vertices.size());
-    std::iota(order.begin(), order.end(), 0u);
-    std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
-        return std::tuple_cat(key(i), std::tuple(i)) < std::tuple_cat(key(j), std::tuple(j));
-    });
-    std::vector<std::uint32_t> welded(vertices.size());
-    for (std::size_t i = 0; i < order.size(); ++i)
-        welded[order[i]] =
-            i > 0 && key(order[i]) == key(order[i - 1]) ? welded[order[i - 1]] : order[i];
-    return welded;
-}
-
-/// One side of a triangle, from the lower to the higher vertex.
-struct Side {
-    std::uint32_t low, high, triangle;
-    bool reversed;  ///< the triangle runs through it from high to low
-};
-
-std::vector<Side> sorted_sides(const Mesh& mesh, const std::vector<std::uint32_t>& welded) {
-    std::vector<Side> sides;
-    sides.reserve(3 * mesh.triangles.size());
-    for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i)
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::uint32_t from = welded[mesh.triangles[i][k]];
-            const std::uint32_t to = welded[mesh.triangles[i][(k + 1) % 3]];
-            sides.push_back({std::min(from, to), std::max(from, to), i, from > to});
-        }
-    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-        return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle);
-    });
-    return sides;
 }
 
 /// Disjoint sets of triangles, each known by its smallest member.
@@ -100,22 +64,17 @@ private:
 
 /// Joins triangles to patches; returns whether each edge has two triangles of like orientation.
 bool add_patches(Mesh& mesh, const std::vector<std::uint32_t>& welded) {
-    const std::vector<Side> sides = sorted_sides(mesh, welded);
     Regions regions(mesh.triangles.size());
     bool watertight = true;
-    for (std::size_t first = 0, last; first < sides.size(); first = last) {
-        last = first + 1;
-        while (last < sides.size() && sides[last].low == sides[first].low &&
-               sides[last].high == sides[first].high)
-            ++last;
-        const bool regular =
-            last - first == 2 && sides[first].reversed != sides[first + 1].reversed;
-        watertight = watertight && regular;
-        if (!regular) continue;
-        const std::uint32_t i = sides[first].triangle;
-        const std::uint32_t j = sides[first + 1].triangle;
+    for_each_edge(mesh, welded, [&](std::span<const TriangleSide> sides) {
+        if (edge_kind(sides) != EdgeKind::regular) {
+            watertight = false;
+            return;
+        }
+        const std::uint32_t i = sides[0].triangle;
+        const std::uint32_t j = sides[1].triangle;
         if (mesh.normals[i].dot(mesh.normals[j]) > std::cos(crease_angle_rad)) regions.join(i, j);
-    }
+    });
     mesh.patches.resize(mesh.triangles.size());
     for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
         const std::uint32_t first = regions.find(i);
@@ -142,6 +101,23 @@ double signed_volume_m3(const Mesh& mesh) {
 
 }  // namespace
 
+std::vector<std::uint32_t> weld_vertices(const std::vector<Vec3>& vertices) {
+    const auto key = [&](std::uint32_t i) {
+        // + 0.0 makes -0 and 0 the same
+        return std::tuple(vertices[i].x() + 0.0, vertices[i].y() + 0.0, vertices[i].z() + 0.0);
+    };
+    std::vector<std::uint32_t> order(vertices.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
+        return std::tuple_cat(key(i), std::tuple(i)) < std::tuple_cat(key(j), std::tuple(j));
+    });
+    std::vector<std::uint32_t> welded(vertices.size());
+    for (std::size_t i = 0; i < order.size(); ++i)
+        welded[order[i]] =
+            i > 0 && key(order[i]) == key(order[i - 1]) ? welded[order[i - 1]] : order[i];
+    return welded;
+}
+
 std::shared_ptr<const Mesh> prepare_mesh(std::vector<Vec3> vertices,
                                          std::vector<std::array<std::uint32_t, 3>> triangles) {
     auto mesh = std::make_shared<Mesh>();
@@ -149,7 +125,7 @@ std::shared_ptr<const Mesh> prepare_mesh(std::vector<Vec3> vertices,
     mesh->triangles = std::move(triangles);
     check(*mesh);
     add_normals_and_areas(*mesh);
-    std::vector<std::uint32_t> welded = weld(mesh->vertices);
+    std::vector<std::uint32_t> welded = weld_vertices(mesh->vertices);
     mesh->closed = add_patches(*mesh, welded) && signed_volume_m3(*mesh) > 0.0;
     mesh->search = std::make_shared<MeshSearch>(*mesh, std::move(welded));
     return mesh;

@@ -32,6 +32,9 @@ struct Mesh {
 /// around; the faces of a box or of an octagonal prism are patches of their own.
 inline constexpr double crease_angle_rad = 20.0 * pi / 180.0;
 
+/// A triangle needs more area than this [m2], so that its normal has all digits.
+inline constexpr double smallest_triangle_m2 = 1e-150;
+
 /// Derives normals, areas, patches and the search structure of an indexed mesh.
 ///
 /// Vertices at exactly the same position count as one where neighbours are sought; the indices are

@@ -17,7 +17,8 @@ inline constexpr ObjectId no_object = ~0u;
 /// across a patch. `primitive` is the triangle of a mesh, else equal to `patch`.
 struct SurfacePoint {
     Vec3 position = Vec3::Zero();
-    Vec3 normal = Vec3::UnitZ();  ///< geometric, unit, outward for solids, else the front of the sheet
+    Vec3 normal =
+        Vec3::UnitZ();  ///< geometric, unit, outward for solids, else the front of the sheet
     ObjectId object = no_object;
     std::uint32_t patch = 0;
     std::uint32_t primitive = 0;

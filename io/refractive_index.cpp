@@ -21,6 +21,8 @@ using spectral::min_wavelength_nm;
 using spectral::Outside;
 using spectral::Spectrum;
 
+constexpr YamlLimits limits = {.bytes = 16u << 20};
+
 std::vector<std::string> lines_of(const std::string& text) {
     std::vector<std::string> lines;
     std::size_t start = 0;
@@ -29,24 +31,6 @@ std::vector<std::string> lines_of(const std::string& text) {
     }
     lines.push_back(text.substr(start));
     return lines;
-}
-
-std::string read_text(const std::filesystem::path& path) {
-    constexpr std::uintmax_t max_bytes = 16u << 20;
-    std::error_code failure;
-    if (!std::filesystem::is_regular_file(path, failure)) {
-        throw InputError({path.string()}, "no such file");
-    }
-    const std::uintmax_t bytes = std::filesystem::file_size(path, failure);
-    if (failure || bytes > max_bytes) {
-        throw InputError({path.string()}, failure ? "cannot be read: " + failure.message()
-                                                  : fmt::format("has {} bytes; at most {} are read",
-                                                                bytes, max_bytes));
-    }
-    std::ifstream stream(path, std::ios::binary);
-    std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
-    if (!stream) throw InputError({path.string()}, "cannot be read");
-    return text;
 }
 
 // "a <i>b</i>\n  c" -> "a b c"
@@ -79,16 +63,17 @@ struct Curve {
 
 class Reader {
 public:
-    explicit Reader(const std::filesystem::path& path)
-        : file_(path.string()), text_(read_text(path)), lines_(lines_of(text_)) {}
+    explicit Reader(const std::filesystem::path& path) : path_(path), file_(path.string()) {}
 
     RefractiveIndexData read() {
-        const auto root = parse_yaml(text_, file_, diagnostics_);
+        const auto root = read_yaml_file(path_, diagnostics_, limits);
+        std::ifstream stream(path_, std::ios::binary);
+        lines_ = lines_of({std::istreambuf_iterator<char>(stream), {}});
         YamlMap map(YamlCursor(*root, file_, diagnostics_));
         RefractiveIndexData result;
         const YamlCursor data = map.required("DATA", "a list of formulas and tables");
         const YamlCursor references = map.optional("REFERENCES");
-        if (references.is_scalar()) result.reference = plain_text(*references.word());
+        if (references.is_scalar()) result.reference = plain_text(references.word().value_or(""));
         for (const YamlCursor& entry : data.list()) read_entry(entry, result);
         if (data && !found_index_) {
             data.complain(
@@ -163,7 +148,9 @@ private:
         const SourceLocation start = cursor.where();
         auto line = static_cast<std::size_t>(start.line) - 1;
         auto column = static_cast<std::size_t>(start.column) - 1;
-        if (lines_[line].compare(column, 1, "|") == 0) {  // a block begins in the next line
+        const bool is_block =
+            line < lines_.size() && column < lines_[line].size() && lines_[line][column] == '|';
+        if (is_block) {  // its text begins in the next line
             ++line;
             column = 0;
         }
@@ -315,9 +302,9 @@ private:
         }
     }
 
+    std::filesystem::path path_;
     std::string file_;
-    std::string text_;
-    std::vector<std::string> lines_;
+    std::vector<std::string> lines_;  // of the file as it stands
     Diagnostics diagnostics_;
     bool found_index_ = false;
     bool found_extinction_ = false;

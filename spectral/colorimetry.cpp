@@ -16,13 +16,13 @@ namespace {
 // The locus is searched in reciprocal temperature, in which its points lie nearly evenly.
 constexpr double min_mired = 10.0;    // 100 000 K
 constexpr double max_mired = 1000.0;  // 1000 K
-constexpr double max_duv = 0.05;      // CIE 15:2018, 9.5
+constexpr double max_duv = 0.05;      // limit of meaning by CIE 15:2018
 
 double temperature_k(double mired) {
     return 1e6 / mired;
 }
 
-// A sum over the nodes that the observer and planck() share, as CIE 15:2018, 7.1 recommends.
+// A sum over the nodes that the observer and planck() share, as CIE 15:2018 recommends.
 UniformChromaticity black_body_1960(double mired) {
     const std::vector<double> radiance = planck(temperature_k(mired)).values();
     const auto sum = [&](const Spectrum& observer) {

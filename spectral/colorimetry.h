@@ -47,12 +47,11 @@ std::optional<UniformChromaticity> chromaticity_1976(const Xyz& colour);
 /// u = u', v = 2/3 v', the diagram in which colour temperature is defined; nothing for black.
 std::optional<UniformChromaticity> chromaticity_1960(const Xyz& colour);
 
-/// Correlated colour temperature (CIE 15:2018, 9.5): the temperature of the black body that is
-/// nearest in (u, v) of 1960. Found as the minimum of the distance to black bodies computed from
-/// Planck's law with c2 of CODATA 2018 and sums at 1 nm; a black body's own temperature comes back
-/// to within 1e-4 of it.
-/// Nothing for black, for |Duv| > 0.05, where the notion loses its meaning, and where the nearest
-/// black body is not between 1000 K and 100 000 K.
+/// Correlated colour temperature (as defined in CIE 15:2018): the temperature of the black body
+/// that is nearest in (u, v) of 1960. Found as the minimum of the distance to black bodies computed
+/// from Planck's law with c2 of CODATA 2018 and sums at 1 nm; a black body's own temperature comes
+/// back to within 1e-4 of it. Nothing for black, for |Duv| > 0.05, where the notion loses its
+/// meaning, and where the nearest black body is not between 1000 K and 100 000 K.
 std::optional<ColourTemperature> correlated_colour_temperature(const Xyz& colour);
 
 /// Linear sRGB from tristimulus values (IEC 61966-2-1): primaries of ITU-R BT.709, white

@@ -95,7 +95,7 @@ Spectrum daylight(double cct_k) {
     if (!(cct_k >= min_daylight_cct_k && cct_k <= max_daylight_cct_k)) {
         throw std::invalid_argument("daylight is defined from 4000 K to 25000 K");
     }
-    // CIE 15:2018, eq. 4.1 to 4.7
+    // CIE 15:2018: chromaticity from temperature, then the weights of the components
     const double t = 1e3 / cct_k;
     const double x = cct_k <= 7000.0 ? ((-4.6070 * t + 2.9678) * t + 0.09911) * t + 0.244063
                                      : ((-2.0064 * t + 1.9018) * t + 0.24748) * t + 0.237040;

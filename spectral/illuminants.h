@@ -28,7 +28,8 @@ std::vector<std::string> illuminant_names();
 inline constexpr double min_daylight_cct_k = 4000.0;
 inline constexpr double max_daylight_cct_k = 25000.0;
 
-/// Relative spectral distribution of a phase of daylight, 100 at 560 nm (CIE 15:2018, 4.1.2).
+/// Relative spectral distribution of a phase of daylight, 100 at 560 nm (CIE 15:2018, illuminants
+/// D).
 ///
 /// @param cct_k  correlated colour temperature on today's scale. D65 is daylight(6503.6): its
 ///               6500 K were meant with c2 = 1.4380e-2 m K, and today's c2 is 1.4388e-2 m K.

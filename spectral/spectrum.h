@@ -22,7 +22,8 @@ class Spectrum {
 public:
     /// The same value at every wavelength.
     Spectrum(double constant = 0.0);  // NOLINT: a number is a spectrum
-    /// Strictly increasing wavelengths [nm] and as many values; throws std::invalid_argument else.
+    /// Strictly increasing wavelengths [nm] and as many values, all finite; two at least if it is
+    /// zero outside. Throws std::invalid_argument else.
     Spectrum(std::vector<double> wavelengths_nm, std::vector<double> values, Outside outside);
 
     double at(double wavelength_nm) const;

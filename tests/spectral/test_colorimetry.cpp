@@ -34,7 +34,7 @@ TEST_CASE("Chromaticity coordinates of D65", "[unit]") {
     const Xyz d65 = colour_of(0.31272, 0.32903);
     CHECK_THAT(chromaticity(d65)->x, WithinAbs(0.31272, 1e-12));
     CHECK_THAT(chromaticity(d65)->y, WithinAbs(0.32903, 1e-12));
-    // u', v' as printed in CIE 15:2004, table T.3
+    // u', v' as CIE 15:2004 prints them
     CHECK_THAT(chromaticity_1976(d65)->u, WithinAbs(0.19783, 1e-5));
     CHECK_THAT(chromaticity_1976(d65)->v, WithinAbs(0.46833, 1e-5));
     CHECK_THAT(chromaticity_1960(d65)->u, WithinAbs(0.19783, 1e-5));

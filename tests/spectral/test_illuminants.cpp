@@ -5,8 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "reference_table.h"
 #include "spectral/colorimetry.h"
+#include "tests/spectral/reference_table.h"
 
 using namespace lucerna::spectral;
 using Catch::Matchers::WithinAbs;
@@ -21,8 +21,9 @@ struct Published {
     double cct_k;  // 0: not printed
 };
 
-// CIE 15:2004, tables T.3 and T.8, and CIE 15:2018, tables 5 to 12: chromaticity for the 2 deg
-// observer and correlated colour temperature, as printed.
+// Chromaticity for the 2 deg observer and correlated colour temperature as CIE 15:2004 and, for
+// LED, CIE 15:2018 print them; checked against the collection of chromaticities in
+// colour-science/colour (colour/colorimetry/datasets/illuminants/chromaticity_coordinates.py).
 const std::vector<Published> published = {
     {"A", 0.44758, 0.40745, 2856},     {"C", 0.31006, 0.31616, 6774},
     {"D50", 0.34567, 0.35851, 5003},   {"D55", 0.33243, 0.34744, 5503},

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "reference_table.h"
 #include "spectral/illuminants.h"
 #include "spectral/observer.h"
+#include "tests/spectral/reference_table.h"
 
 using namespace lucerna::spectral;
 using Catch::Matchers::WithinAbs;

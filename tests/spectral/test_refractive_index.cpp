@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/diagnostics.h"
-#include "text_file.h"
+#include "tests/spectral/text_file.h"
 
 using namespace lucerna;
 using Catch::Contains;
@@ -222,4 +222,29 @@ TEST_CASE("A file without a usable index is refused", "[unit]") {
     CHECK_THROWS_AS(read_refractive_index("/no/such/file.yml"), InputError);
     CHECK_THROWS_AS(from_text("DATA: [\n"), InputError);
     CHECK_THROWS_AS(from_text(""), InputError);
+}
+
+TEST_CASE("A spoilt file ends in an error, not in a crash", "[fuzz]") {
+    const std::string seed =
+        "REFERENCES: |\n    somebody\n"
+        "DATA:\n  - type: formula 2\n    wavelength_range: 0.3 2.5\n"
+        "    coefficients: 0 1.03961212 0.00600069867\n"
+        "  - type: tabulated k\n    data: |\n        0.3 1E-6\n        0.9 2E-6\n";
+    std::uint32_t state = 7;
+    for (int round = 0; round < 3000; ++round) {
+        std::string text = seed;
+        for (int edit = 0; edit < 3; ++edit) {
+            state = state * 1664525u + 1013904223u;
+            // mostly by other letters of the file, so that much of it stays YAML
+            text[(state >> 8) % text.size()] =
+                edit == 0 ? static_cast<char>(state >> 24) : seed[(state >> 4) % seed.size()];
+        }
+        try {
+            const RefractiveIndexData data = from_text(text);
+            CHECK(data.n.min() > 0.0);
+            if (data.k) CHECK(data.k->min() >= 0.0);
+        } catch (const InputError& error) {
+            CHECK_FALSE(error.diagnostics().empty());
+        }
+    }
 }

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/diagnostics.h"
-#include "text_file.h"
+#include "tests/spectral/text_file.h"
 
 using namespace lucerna;
 using Catch::Contains;

@@ -9,8 +9,8 @@
 #include <stdexcept>
 
 #include "core/statistics.h"
-#include "reference_table.h"
 #include "spectral/illuminants.h"
+#include "tests/spectral/reference_table.h"
 
 using namespace lucerna;
 using namespace lucerna::spectral;

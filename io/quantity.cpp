@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace lucerna {
+namespace lucerna::io {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180.0;
@@ -129,4 +129,4 @@ double parse_value(std::string_view text, const Dimension& dimension) {
     return parse_quantity(text, dimension).value;
 }
 
-}  // namespace lucerna
+}  // namespace lucerna::io

@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-namespace lucerna {
+namespace lucerna::io {
 
 /// A unit: one of it is `factor` of `base`.
 struct Unit {
@@ -51,4 +51,4 @@ Quantity parse_quantity(std::string_view text, const Dimension& dimension);
 /// The same where the dimension has one base unit.
 double parse_value(std::string_view text, const Dimension& dimension);
 
-}  // namespace lucerna
+}  // namespace lucerna::io

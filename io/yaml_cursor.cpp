@@ -6,7 +6,7 @@
 #include <charconv>
 #include <stdexcept>
 
-namespace lucerna {
+namespace lucerna::io {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -246,4 +246,4 @@ std::uint64_t read_count(const YamlCursor& cursor, std::uint64_t least, std::uin
     return least;
 }
 
-}  // namespace lucerna
+}  // namespace lucerna::io

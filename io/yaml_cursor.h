@@ -17,7 +17,7 @@
 #include "io/quantity.h"
 #include "io/yaml_tree.h"
 
-namespace lucerna {
+namespace lucerna::io {
 
 class YamlCursor {
 public:
@@ -110,4 +110,4 @@ Vec3 read_direction(const YamlCursor& cursor);
 /// A whole number in [least, most]; `least` after a complaint.
 std::uint64_t read_count(const YamlCursor& cursor, std::uint64_t least, std::uint64_t most);
 
-}  // namespace lucerna
+}  // namespace lucerna::io

@@ -10,7 +10,7 @@
 #include <optional>
 #include <sstream>
 
-namespace lucerna {
+namespace lucerna::io {
 namespace {
 
 /// Builds the tree from the parser's events.
@@ -197,4 +197,4 @@ std::shared_ptr<const YamlNode> read_yaml_file(const std::filesystem::path& path
     return parse_yaml(text, path.string(), diagnostics, limits);
 }
 
-}  // namespace lucerna
+}  // namespace lucerna::io

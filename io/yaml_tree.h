@@ -11,7 +11,7 @@
 
 #include "core/diagnostics.h"
 
-namespace lucerna {
+namespace lucerna::io {
 
 /// A node of the document. Aliases share the node of their anchor.
 struct YamlNode {
@@ -50,4 +50,4 @@ std::shared_ptr<const YamlNode> read_yaml_file(const std::filesystem::path& path
                                                Diagnostics& diagnostics,
                                                const YamlLimits& limits = {});
 
-}  // namespace lucerna
+}  // namespace lucerna::io

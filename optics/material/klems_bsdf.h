@@ -42,8 +42,9 @@ public:
         return backward_[static_cast<std::size_t>(outgoing)];
     }
 
-    /// The matrix for light on the other side that reciprocity demands of a transmission:
-    /// f(a -> b) = f(b -> a). Nothing if a basis has no opposite patches.
+    /// The matrix that reciprocity, f(a -> b) = f(b -> a), demands: of a reflection the same one,
+    /// of a transmission that for light on the other side. Nothing if a basis has no opposite
+    /// patches.
     std::optional<KlemsMatrix> reversed() const;
 
 private:

@@ -36,6 +36,10 @@ std::optional<BsdfSample> sample(const Measured& measured, const SurfaceOptics& 
     return event;
 }
 
+bool is_isotropic(const MeasuredBsdf& measured) {
+    return std::holds_alternative<TabulatedBsdf>(measured.data);
+}
+
 bool transmits(const MeasuredBsdf& measured) {
     return std::visit(
         [](const auto& data) {

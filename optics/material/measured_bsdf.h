@@ -6,7 +6,9 @@
 // toward wi.
 #pragma once
 
+#include <string>
 #include <variant>
+#include <vector>
 
 #include "optics/material/klems_bsdf.h"
 #include "optics/material/tabulated_bsdf.h"
@@ -16,7 +18,13 @@ namespace lucerna::optics {
 /// Closed list of the forms in which measured data come.
 struct MeasuredBsdf {
     std::variant<KlemsBsdf, TabulatedBsdf> data;
+    /// What its reader had to assume, such as a part that was not measured; for the report.
+    std::vector<std::string> warnings{};
 };
+
+/// True if f does not change when the surface is turned around its normal, so that no direction on
+/// the surface needs to be known.
+bool is_isotropic(const MeasuredBsdf& measured);
 
 /// True if the data let light pass in at least one direction.
 bool transmits(const MeasuredBsdf& measured);

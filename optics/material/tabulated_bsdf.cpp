@@ -28,10 +28,9 @@ double polar_angle(const Vec3& d) {
     return std::atan2(std::hypot(d.x(), d.y()), std::abs(d.z()));
 }
 
-/// phi_out - phi_in in [0, 2 pi].
+/// phi_out - phi_in in [0, 2 pi]. On the normal, where azimuth means nothing, it counts as 0.
 double azimuth_difference(const Vec3& in, const Vec3& out) {
-    const double angle =
-        std::atan2(in.x() * out.y() - in.y() * out.x(), in.x() * out.x() + in.y() * out.y());
+    const double angle = std::atan2(out.y(), out.x()) - std::atan2(in.y(), in.x());
     return angle < 0.0 ? angle + 2.0 * pi : angle;
 }
 

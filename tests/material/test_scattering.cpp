@@ -91,7 +91,7 @@ TEST_CASE("A sampler that leaves out the cosine is found", "[statistical]") {
         return Vec3(s * std::cos(2.0 * pi * u2), s * std::sin(2.0 * pi * u2), u1);
     };
     const auto cosine = [](const Vec3& w) { return std::max(0.0, w.z()) / pi; };
-    CHECK(chi_square_deviate(uniform_hemisphere, cosine, 10'000) > chi_square_limit);
+    CHECK(count_cells(uniform_hemisphere, cosine, 10'000).chi_square_deviate() > chi_square_limit);
 }
 
 TEST_CASE("Light may travel either way: f(out, in, radiance) = f(in, out, flux)", "[property]") {
@@ -143,8 +143,8 @@ TEST_CASE("No surface scatters more than arrives", "[property]") {
             Surface metal;
             metal.add(
                 RoughConductor{metal.spectrum(lanes(1.0)), metal.spectrum(lanes(1e4)), roughness});
-            CHECK(quadrature_albedo(metal, wo, Transport::flux, 0) < 1.001);
-            CHECK(quadrature_albedo(rough_glass(roughness, lanes(1.5)), wo, Transport::flux, 0) <
+            CHECK(quadrature_albedo(metal, wo, Transport::flux)[0] < 1.001);
+            CHECK(quadrature_albedo(rough_glass(roughness, lanes(1.5)), wo, Transport::flux)[0] <
                   1.001);
         }
     }
@@ -169,8 +169,8 @@ TEST_CASE("Single scattering of GGX at normal incidence loses what a second face
     }
     Surface metal;
     metal.add(RoughConductor{metal.spectrum(lanes(1.0)), metal.spectrum(lanes(1e5)), roughness});
-    const auto [mean, error] = mean_weight(metal, direction(0.0, 0.0), Transport::flux, 0, 400'000);
-    check_mean(mean, error, leaves, DetectsRelative{0.02}, 1e-4);
+    const MeanWeight weight = mean_weight(metal, direction(0.0, 0.0), Transport::flux, 400'000);
+    check_mean(weight.mean[0], weight.standard_error[0], leaves, DetectsRelative{0.02}, 1e-4);
 }
 
 TEST_CASE("Rough glass without a difference of index is not there", "[unit]") {

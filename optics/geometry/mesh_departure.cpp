@@ -45,6 +45,19 @@ Vec3 nearest_in_triangle(const Corners& corners, const Vec3& normal, const Vec3&
 
 }  // namespace
 
+bool can_hit_from(const Mesh& mesh, std::uint32_t start, std::uint32_t triangle,
+                  const Vec3& direction) {
+    const double away = direction.dot(mesh.normals[start]);
+    if (away * direction.dot(mesh.normals[triangle]) >= 0.0) return false;
+    const Vec3 outward = std::copysign(1.0, away) * mesh.normals[start];
+    const Vec3& foot = mesh.vertices[mesh.triangles[start][0]];
+    for (const Vec3& corner : corners_of(mesh, triangle)) {
+        const Vec3 step = corner - foot;
+        if (outward.dot(step) > 1e-9 * step.norm()) return true;
+    }
+    return false;
+}
+
 bool near_edge(const Mesh& mesh, std::uint32_t triangle, const Vec3& p, double distance_m) {
     const Corners corners = corners_of(mesh, triangle);
     for (std::size_t k = 0; k < 3; ++k)
@@ -54,32 +67,24 @@ bool near_edge(const Mesh& mesh, std::uint32_t triangle, const Vec3& p, double d
 
 std::optional<TriangleHit> nearest_neighbour_hit(const Mesh& mesh, std::uint32_t start,
                                                  const Ray& ray) {
-    const Vec3& start_normal = mesh.normals[start];
-    const double side = ray.direction.dot(start_normal) > 0.0 ? 1.0 : -1.0;
     std::optional<TriangleHit> best;
     mesh.search->for_each_neighbour(mesh, start, [&](std::uint32_t triangle) {
-        if (triangle == start) return;
+        if (!can_hit_from(mesh, start, triangle, ray.direction)) return;
         const Vec3& normal = mesh.normals[triangle];
-        if (side * ray.direction.dot(normal) >= 0.0) return;  // would come from its other side
         const Corners corners = corners_of(mesh, triangle);
         // Rounding of the position, in units of the coordinates that enter it.
         const double size =
             ray.origin.cwiseAbs().maxCoeff() + (corners[1] - corners[0]).cwiseAbs().maxCoeff();
         const double rounding = 1e-14 * size;
-        double distance_m;
-        const double height = (ray.origin - corners[0]).dot(normal);
-        if (std::abs(height) <= rounding) {
+        const auto t = intersect_triangle(mesh, triangle, ray);
+        double distance_m = t.value_or(-1.0);
+        if (distance_m < 0.0) {
+            const double height = (ray.origin - corners[0]).dot(normal);
             const Vec3 foot = ray.origin - height * normal;
-            if ((nearest_in_triangle(corners, normal, foot) - foot).norm() > rounding) return;
-            double rise = 0.0;  // how far the neighbour bends towards the ray's side
-            for (const Vec3& corner : corners)
-                rise = std::max(rise, side * start_normal.dot(corner - ray.origin));
-            if (rise <= 1e-9 * size) return;
+            if (std::abs(height) > rounding ||
+                (nearest_in_triangle(corners, normal, foot) - foot).norm() > rounding)
+                return;
             distance_m = 0.0;
-        } else {
-            const auto t = intersect_triangle(mesh, triangle, ray);
-            if (!t || *t <= 0.0) return;
-            distance_m = *t;
         }
         if (!best || distance_m < best->distance_m) best = TriangleHit{distance_m, triangle};
     });

@@ -5,6 +5,11 @@
 
 namespace lucerna::optics {
 
+/// Whether a ray that leaves the triangle `start` can hit `triangle` at all, as far as their planes
+/// tell: it must pass it from the side on which it runs, and the triangle must reach to that side.
+bool can_hit_from(const Mesh& mesh, std::uint32_t start, std::uint32_t triangle,
+                  const Vec3& direction);
+
 /// True if p, a point of the triangle, is closer than `distance_m` to one of its edges.
 bool near_edge(const Mesh& mesh, std::uint32_t triangle, const Vec3& p, double distance_m);
 

@@ -16,9 +16,9 @@ Vec3 to_local(const MeshInstance& s, const Vec3& p) {
 OptionalHit intersect(const MeshInstance& s, const Ray& ray, const SurfacePoint* start,
                       double max) {
     const Ray local{to_local(s, ray.origin), s.placement.linear().transpose() * ray.direction};
-    std::optional<std::uint32_t> left_out;
-    if (start) left_out = start->primitive;
-    const auto hit = s.mesh->search->nearest(*s.mesh, local, left_out, max);
+    std::optional<std::uint32_t> start_triangle;
+    if (start) start_triangle = start->primitive;
+    const auto hit = s.mesh->search->nearest(*s.mesh, local, start_triangle, max);
     if (!hit) return std::nullopt;
     return ShapeHit{hit->distance_m,
                     s.placement * (local.origin + hit->distance_m * local.direction),

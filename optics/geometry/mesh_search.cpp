@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "optics/geometry/disc_area.h"
+#include "optics/geometry/mesh_departure.h"
 
 namespace lucerna::optics {
 
@@ -144,11 +145,12 @@ void MeshSearch::walk(const Ray& ray, double& max_distance_m, Visit&& visit) con
 }
 
 std::optional<TriangleHit> MeshSearch::nearest(const Mesh& mesh, const Ray& ray,
-                                               std::optional<std::uint32_t> left_out,
+                                               std::optional<std::uint32_t> start,
                                                double max_distance_m) const {
     std::optional<TriangleHit> best;
     walk(ray, max_distance_m, [&](std::uint32_t triangle) {
-        if (left_out == triangle) return;
+        if (start == triangle) return;
+        if (start && mesh.closed && !can_hit_from(mesh, *start, triangle, ray.direction)) return;
         const auto t = intersect_triangle(mesh, triangle, ray);
         if (!t || !(*t > 0.0 && *t < max_distance_m)) return;
         max_distance_m = *t;

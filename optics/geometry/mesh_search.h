@@ -22,8 +22,11 @@ public:
     MeshSearch(const Mesh& mesh, std::vector<std::uint32_t> welded);
 
     /// Nearest triangle along the ray at a distance in (0, max_distance_m).
+    ///
+    /// @param start  triangle that the ray leaves: it is not hit, nor on a closed mesh any that the
+    ///   ray cannot pass from its side (see can_hit_from)
     std::optional<TriangleHit> nearest(const Mesh& mesh, const Ray& ray,
-                                       std::optional<std::uint32_t> left_out,
+                                       std::optional<std::uint32_t> start,
                                        double max_distance_m) const;
 
     /// Number of triangles that the half line leaves through their back, less those that it enters

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "optics/geometry/axial_frame.h"
 #include "optics/geometry/mesh_departure.h"
 #include "optics/geometry/shape_parts.h"
 
@@ -46,11 +47,24 @@ Ray to_local(const MeshInstance& s, const Ray& ray) {
             s.placement.linear().transpose() * ray.direction};
 }
 
-double plane_distance(const MeshInstance& s, std::uint32_t triangle, const Ray& ray) {
-    const Ray local = to_local(s, ray);
-    const Vec3& corner = s.mesh->vertices[s.mesh->triangles[triangle][0]];
-    const Vec3& normal = s.mesh->normals[triangle];
-    return (corner - local.origin).dot(normal) / local.direction.dot(normal);
+/// The box with its surface well inside.
+Eigen::AlignedBox3d grown(const Eigen::AlignedBox3d& box) {
+    const Vec3 margin = Vec3::Constant(1e-9 * box.diagonal().norm());
+    return {box.min() - margin, box.max() + margin};
+}
+
+/// Where a ray that starts in the box leaves it.
+double leaves(const Eigen::AlignedBox3d& box, const Ray& ray) {
+    double distance_m = infinity;
+    for (int i = 0; i < 3; ++i)
+        distance_m = std::min(distance_m, leaves_slab(ray.origin[i] - box.min()[i],
+                                                      ray.direction[i], box.sizes()[i]));
+    return distance_m;
+}
+
+/// Whether the segment between any two points of the surface runs inside or along it.
+bool is_convex(const Shape& shape) {
+    return !std::holds_alternative<Tube>(shape) && !std::holds_alternative<MeshInstance>(shape);
 }
 
 }  // namespace
@@ -84,9 +98,14 @@ struct RayCaster::Impl {
     Vec3 off_surface(const MeshInstance& s, const SurfacePoint& p, const Vec3& direction) const;
     std::optional<TriangleHit> neighbour_hit(const MeshInstance& s, const SurfacePoint& p,
                                              const Ray& ray) const;
+    std::optional<Hit> embree_hit(const Ray& ray, const SurfacePoint* start,
+                                  double max_distance_m) const;
+    std::optional<Hit> slipped_through(const Ray& ray, const SurfacePoint* start,
+                                       const std::optional<Hit>& found,
+                                       double max_distance_m) const;
     Hit mesh_hit(ObjectId object, std::uint32_t triangle, const Ray& ray, double distance_m) const;
-    bool keeps(const Query& query, ObjectId object, std::uint32_t triangle,
-               double distance_m) const;
+    const Eigen::AlignedBox3d& bounds_of(ObjectId closed_mesh) const;
+    bool keeps(const Query& query, ObjectId object, std::uint32_t triangle) const;
     bool blocks(const Query& query, ObjectId object) const;
 
     static void intersect_exact(const RTCIntersectFunctionNArguments* args);
@@ -98,6 +117,7 @@ struct RayCaster::Impl {
     std::vector<ObjectId> exact;   ///< the objects of exact shape, by Embree's primitive number
     std::vector<double> offset_m;  ///< per mesh object: safely above single-precision rounding
     std::vector<std::pair<ObjectId, Eigen::AlignedBox3d>> solids;
+    std::vector<std::pair<ObjectId, Eigen::AlignedBox3d>> closed_meshes;  ///< of the solids
     Vec3 centre = Vec3::Zero();
     double radius_m = 0.0;
     RTCFilterFunctionN filter = nullptr;
@@ -118,7 +138,10 @@ RayCaster::Impl::Impl(std::span<const Shape> all)
         const Eigen::AlignedBox3d object_bounds = bounds(shapes[object]);
         box.extend(object_bounds);
         if (is_solid(shapes[object])) solids.emplace_back(object, object_bounds);
-        if (!std::holds_alternative<MeshInstance>(shapes[object])) exact.push_back(object);
+        if (!std::holds_alternative<MeshInstance>(shapes[object]))
+            exact.push_back(object);
+        else if (is_solid(shapes[object]))
+            closed_meshes.emplace_back(object, grown(object_bounds));
     }
     if (!box.isEmpty()) {
         centre = box.center();
@@ -306,28 +329,31 @@ Hit RayCaster::Impl::mesh_hit(ObjectId object, std::uint32_t triangle, const Ray
 }
 
 /// Whether a triangle found in single precision counts: not the one that the ray leaves or is meant
-/// to reach, and close to these only if the ray passes it from the side on which it runs.
-bool RayCaster::Impl::keeps(const Query& query, ObjectId object, std::uint32_t triangle,
-                            double distance_m) const {
+/// to reach; and if one of these ends lies close to the triangle's plane, so that rounding may have
+/// put it on the wrong side, only if double precision says so.
+bool RayCaster::Impl::keeps(const Query& query, ObjectId object, std::uint32_t triangle) const {
     const MeshInstance& s = std::get<MeshInstance>(shapes[object]);
-    const Vec3& direction = query.ray->direction;
+    const Mesh& mesh = *s.mesh;
+    const Ray ray = to_local(s, *query.ray);
     const double near_m = 16.0 * offset_m[object];
-    const bool near_start = distance_m < near_m;
-    const bool near_end = distance_m > query.reach_m - near_m;
-    const auto passes_on_side_of = [&](const SurfacePoint& p) {
-        const Vec3 local = s.placement.linear().transpose() * direction;
-        return local.dot(s.mesh->normals[triangle]) * local.dot(s.mesh->normals[p.primitive]) < 0.0;
-    };
+    const Vec3& corner = mesh.vertices[mesh.triangles[triangle][0]];
+    const double slope = ray.direction.dot(mesh.normals[triangle]);
+    const double height_m = (corner - ray.origin).dot(mesh.normals[triangle]);
+    const bool near_start = std::abs(height_m) < near_m;
     if (query.start && query.start->object == object) {
-        if (triangle == query.start->primitive) return false;
-        if (near_start && !passes_on_side_of(*query.start)) return false;
-    } else if (near_start && plane_distance(s, triangle, *query.ray) <= 0.0) {
+        const std::uint32_t start = query.start->primitive;
+        if (triangle == start) return false;
+        if (near_start && !can_hit_from(mesh, start, triangle, ray.direction)) return false;
+    } else if (near_start && height_m / slope <= 0.0) {
         return false;
     }
+    if (query.reach_m == infinity) return true;
+    const bool near_end = std::abs(height_m - query.reach_m * slope) < near_m;
     if (query.end && query.end->object == object) {
-        if (triangle == query.end->primitive) return false;
-        if (near_end && !passes_on_side_of(*query.end)) return false;
-    } else if (near_end && plane_distance(s, triangle, *query.ray) >= query.reach_m) {
+        const std::uint32_t end = query.end->primitive;
+        if (triangle == end) return false;
+        if (near_end && !can_hit_from(mesh, end, triangle, -ray.direction)) return false;
+    } else if (near_end && height_m / slope >= query.reach_m) {
         return false;
     }
     return true;
@@ -338,6 +364,7 @@ bool RayCaster::Impl::blocks(const Query& query, ObjectId object) const {
     const Shape& shape = shapes[object];
     const bool at_start = query.start && query.start->object == object;
     const bool at_end = query.end && query.end->object == object;
+    if (at_start && at_end && is_convex(shape)) return false;
     if (at_end && !at_start) {  // seen from the end, whose root is left out in closed form
         const Ray back{query.ray->origin + query.reach_m * query.ray->direction,
                        -query.ray->direction};
@@ -346,8 +373,80 @@ bool RayCaster::Impl::blocks(const Query& query, ObjectId object) const {
     const auto hit =
         optics::intersect(shape, *query.ray, at_start ? query.start : nullptr, query.reach_m);
     if (!hit) return false;
+    // Along a generator of a tube the root is ill-conditioned: 1e-6 of the distance.
     return !(at_end && hit->patch == query.end->patch &&
-             hit->distance_m >= query.reach_m * (1.0 - 1e-9));
+             hit->distance_m >= query.reach_m * (1.0 - 1e-6));
+}
+
+std::optional<Hit> RayCaster::Impl::embree_hit(const Ray& ray, const SurfacePoint* start,
+                                               double max_distance_m) const {
+    Query query = new_query(ray, start);
+    Vec3 origin = ray.origin;
+    std::optional<Hit> nearest;
+    if (const MeshInstance* s = mesh_of(start)) {
+        origin = off_surface(*s, *start, ray.direction);
+        if (const auto next = neighbour_hit(*s, *start, ray);
+            next && next->distance_m < max_distance_m) {
+            nearest = mesh_hit(start->object, next->triangle, ray, next->distance_m);
+            max_distance_m = next->distance_m;
+        }
+    }
+    RTCRayHit rayhit;
+    rayhit.ray = embree_ray(query, origin, max_distance_m);
+    rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rayhit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    query.exact_hit.distance_m = max_distance_m;
+    rtcIntersect1(scene.get(), &query.context, &rayhit);
+
+    const RTCHit& found = rayhit.hit;
+    if (found.geomID == RTC_INVALID_GEOMETRY_ID) return nearest;
+    const bool instanced = found.instID[0] != RTC_INVALID_GEOMETRY_ID;
+    if (!instanced && found.geomID == exact_geometry) {
+        const ShapeHit& hit = query.exact_hit;
+        return Hit{{.position = hit.position,
+                    .normal = hit.normal,
+                    .object = exact[found.primID],
+                    .patch = hit.patch,
+                    .primitive = hit.primitive},
+                   hit.distance_m};
+    }
+    const Hit hit = mesh_hit(instanced ? found.instID[0] : found.geomID, found.primID, ray,
+                             static_cast<double>(rayhit.ray.tfar) + query.skipped_m);
+    if (hit.distance_m < max_distance_m) return hit;
+    return nearest;
+}
+
+const Eigen::AlignedBox3d& RayCaster::Impl::bounds_of(ObjectId closed_mesh) const {
+    return std::lower_bound(closed_meshes.begin(), closed_meshes.end(), closed_mesh,
+                            [](const auto& entry, ObjectId id) { return entry.first < id; })
+        ->second;
+}
+
+/// Single precision misses a triangle now and then where many meet in a corner. A ray that should
+/// have left a closed mesh by the time it leaves its bounds is tried again in double precision.
+std::optional<Hit> RayCaster::Impl::slipped_through(const Ray& ray, const SurfacePoint* start,
+                                                    const std::optional<Hit>& found,
+                                                    double max_distance_m) const {
+    std::optional<Hit> nearest;
+    const auto try_again = [&](ObjectId object, const Eigen::AlignedBox3d& box) {
+        const double leave_m = leaves(box, ray);
+        if (leave_m > max_distance_m || (found && found->distance_m <= leave_m)) return;
+        const SurfacePoint* own_start = start && start->object == object ? start : nullptr;
+        const auto hit = optics::intersect(shapes[object], ray, own_start, max_distance_m);
+        if (!hit) return;
+        max_distance_m = hit->distance_m;
+        nearest = mesh_hit(object, hit->primitive, ray, hit->distance_m);
+    };
+    if (found) {  // then only the mesh into which the ray started is known to be left
+        const MeshInstance* s = mesh_of(start);
+        if (!s || !s->mesh->closed || found->point.object == start->object) return nearest;
+        const Vec3 normal = s->placement.linear() * s->mesh->normals[start->primitive];
+        if (ray.direction.dot(normal) < 0.0) try_again(start->object, bounds_of(start->object));
+    } else {
+        for (const auto& [object, box] : closed_meshes)
+            if (box.contains(ray.origin)) try_again(object, box);
+    }
+    return nearest;
 }
 
 // ---- Embree's callbacks ----
@@ -390,12 +489,10 @@ void RayCaster::Impl::occlude_exact(const RTCOccludedFunctionNArguments* args) {
 void RayCaster::Impl::filter_triangle(const RTCFilterFunctionNArguments* args) {
     const Query& query = *reinterpret_cast<const Query*>(args->context);
     const RTCHit& hit = *reinterpret_cast<const RTCHit*>(args->hit);
-    const RTCRay& ray = *reinterpret_cast<const RTCRay*>(args->ray);
     if (hit.geomID == query.caster->exact_geometry && hit.instID[0] == RTC_INVALID_GEOMETRY_ID)
         return;
     const ObjectId object = hit.instID[0] == RTC_INVALID_GEOMETRY_ID ? hit.geomID : hit.instID[0];
-    const double distance_m = static_cast<double>(ray.tfar) + query.skipped_m;
-    if (!query.caster->keeps(query, object, hit.primID, distance_m)) args->valid[0] = 0;
+    if (!query.caster->keeps(query, object, hit.primID)) args->valid[0] = 0;
 }
 
 // ---- public ----
@@ -407,40 +504,10 @@ RayCaster& RayCaster::operator=(RayCaster&&) noexcept = default;
 
 std::optional<Hit> RayCaster::intersect(const Ray& ray, const SurfacePoint* start,
                                         double max_distance_m) const {
-    Impl::Query query = impl_->new_query(ray, start);
-    Vec3 origin = ray.origin;
-    std::optional<Hit> nearest;
-    if (const MeshInstance* s = impl_->mesh_of(start)) {
-        origin = impl_->off_surface(*s, *start, ray.direction);
-        if (const auto next = impl_->neighbour_hit(*s, *start, ray);
-            next && next->distance_m < max_distance_m) {
-            nearest = impl_->mesh_hit(start->object, next->triangle, ray, next->distance_m);
-            max_distance_m = next->distance_m;
-        }
-    }
-    RTCRayHit rayhit;
-    rayhit.ray = impl_->embree_ray(query, origin, max_distance_m);
-    rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rayhit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    query.exact_hit.distance_m = max_distance_m;
-    rtcIntersect1(impl_->scene.get(), &query.context, &rayhit);
-
-    const RTCHit& found = rayhit.hit;
-    if (found.geomID == RTC_INVALID_GEOMETRY_ID) return nearest;
-    const bool instanced = found.instID[0] != RTC_INVALID_GEOMETRY_ID;
-    if (!instanced && found.geomID == impl_->exact_geometry) {
-        const ShapeHit& hit = query.exact_hit;
-        return Hit{{.position = hit.position,
-                    .normal = hit.normal,
-                    .object = impl_->exact[found.primID],
-                    .patch = hit.patch,
-                    .primitive = hit.primitive},
-                   hit.distance_m};
-    }
-    const Hit hit = impl_->mesh_hit(instanced ? found.instID[0] : found.geomID, found.primID, ray,
-                                    static_cast<double>(rayhit.ray.tfar) + query.skipped_m);
-    if (hit.distance_m < max_distance_m) return hit;
-    return nearest;
+    const std::optional<Hit> hit = impl_->embree_hit(ray, start, max_distance_m);
+    if (impl_->closed_meshes.empty() || (hit && !start)) return hit;
+    const std::optional<Hit> missed = impl_->slipped_through(ray, start, hit, max_distance_m);
+    return missed ? missed : hit;
 }
 
 bool RayCaster::occluded(const Vec3& from, const SurfacePoint* from_surface, const Vec3& to,

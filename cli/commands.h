@@ -38,6 +38,9 @@ struct CompareOptions {
 };
 ExitCode compare(const CompareOptions& options);
 
+/// Measures how fast the rays of a scene are traced, over this many paths of each kind.
+ExitCode bench(const std::filesystem::path& scene, std::uint32_t paths);
+
 /// Says what a photometric file holds.
 ExitCode photometry(const std::filesystem::path& file);
 

@@ -31,16 +31,19 @@ std::function<void(const std::string&)> quantity_into(std::optional<double>& val
 struct CommandLine {
     CLI::App app{"Lucerna: spectral simulation of light with accuracy bounds", "lucerna"};
     cli::RunOptions run;
-    std::filesystem::path scene_to_check, photometric_file;
+    std::filesystem::path scene_to_check, scene_to_time, photometric_file;
+    std::uint32_t paths_to_time = 100000;
     cli::CompareOptions compare;
     CLI::App* run_command;
     CLI::App* check_command;
     CLI::App* compare_command;
     CLI::App* photometry_command;
+    CLI::App* bench_command;
 
     CommandLine() {
         app.set_version_flag("--version", "lucerna " LUCERNA_VERSION);
-        app.require_subcommand(1);
+        app.require_subcommand(0,
+                               1);  // with none of these, an unknown word is named in the complaint
 
         run_command =
             app.add_subcommand("run", "Simulate a scene; write images, previews and report");
@@ -59,7 +62,8 @@ struct CommandLine {
             ->check(CLI::PositiveNumber);
         run_command->add_option("--threads", run.threads, "Threads to use [all of the machine]")
             ->check(CLI::PositiveNumber);
-        run_command->add_option("--seed", run.seed, "Seed of the random numbers");
+        run_command->add_option("--seed", run.seed, "Seed of the random numbers")
+            ->check(CLI::NonNegativeNumber);
         run_command->add_option("--method", run.method, "Estimators to use")
             ->transform(CLI::CheckedTransformer(
                 std::map<std::string, optics::Method>{{"combined", optics::Method::combined},
@@ -83,6 +87,11 @@ struct CommandLine {
         compare_command->add_option("--mask", compare.mask,
                                     "Image whose pixels of value 0 do not count");
 
+        bench_command = app.add_subcommand("bench", "Say how fast the rays of a scene are traced");
+        bench_command->add_option("SCENE", scene_to_time, "Scene file (YAML)")->required();
+        bench_command->add_option("--paths", paths_to_time, "Paths of each kind [100000]")
+            ->check(CLI::PositiveNumber);
+
         photometry_command =
             app.add_subcommand("photometry", "Say what an IES or EULUMDAT file holds");
         photometry_command->add_option("FILE", photometric_file, "IES LM-63 or EULUMDAT file")
@@ -93,7 +102,9 @@ struct CommandLine {
         if (*run_command) return cli::run(run);
         if (*check_command) return cli::check(scene_to_check);
         if (*compare_command) return cli::compare(compare);
-        return cli::photometry(photometric_file);
+        if (*photometry_command) return cli::photometry(photometric_file);
+        fmt::print(stderr, "{}", app.help());
+        return cli::bad_input;
     }
 };
 

@@ -31,8 +31,12 @@ public:
         bin_ = static_cast<std::uint32_t>(bins.first_bin + bin);
         scatterings_ = 0;
         specular_since_ = false;
-        path_ = {};
-        path_.weight = Lanes::Constant(1.0f / static_cast<float>(bins.samples_per_bin));
+        path_ = {.ray = {Vec3::Zero(), Vec3::UnitZ()},
+                 .start = {},
+                 .media = {},
+                 .weight = Lanes::Constant(1.0f / static_cast<float>(bins.samples_per_bin)),
+                 .hero_only = false,
+                 .lossless_events = 0};
         if (!leave_observer(bins.observer, bin, random)) return;
         while (next_event(random)) {
         }

@@ -13,6 +13,7 @@ std::optional<Lanes> line_of_sight(const Phase& phase, const Vec3& from,
     const double length_m = (light.position - from).norm();
     if (!stage.has_null_surfaces()) {
         ++shadow_segments;
+        if (phase.ray_log) phase.ray_log->push_back({from, light.direction});
         if (stage.caster().occluded(from, surface, light.position, target)) return std::nullopt;
         return phase.transmittance(media.acting(parts), length_m);
     }

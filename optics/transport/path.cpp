@@ -20,6 +20,7 @@ Frame bsdf_frame(const Phase& phase, const SurfacePoint& point) {
 std::optional<Encounter> next_encounter(const Phase& phase, const Path& path) {
     const Stage& stage = phase.stage;
     const SceneParts& parts = stage.parts();
+    if (phase.ray_log) phase.ray_log->push_back(path.ray);
     const SurfacePoint* start = path.start.object == no_object ? nullptr : &path.start;
     const auto hit = stage.caster().intersect(path.ray, start);
     if (!hit) return std::nullopt;

@@ -13,6 +13,8 @@ struct Phase {
     std::uint32_t number;  ///< counts from 0
     spectral::WavelengthSet wavelengths;
     PhaseSpectra spectra;  ///< of the scene, by SpectrumId
+    /// Takes down each ray that is cast, for the benchmark; one thread only. Usually nullptr.
+    std::vector<Ray>* ray_log = nullptr;
 
     /// Index of refraction and absorption coefficient of the medium in a solid (or surroundings).
     Lanes index(ObjectId acting_solid) const;

@@ -333,7 +333,9 @@ void IesReader::read_data() {
         numbers(horizontals * verticals, "intensity");  // throws
     }
     for (const double angle_deg : horizontal_deg_) {
-        const std::string what = fmt::format("an intensity at horizontal angle {}", angle_deg);
+        const std::string what =
+            std::isnan(angle_deg) ? fmt::format("an intensity of plane {}", table_.size() + 1)
+                                  : fmt::format("an intensity at horizontal angle {}", angle_deg);
         std::vector<double>& plane = table_.emplace_back(numbers(verticals, what));
         for (std::size_t i = 0; i < verticals; ++i) {
             if (plane[i] >= 0.0 || std::isnan(plane[i])) continue;

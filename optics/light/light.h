@@ -92,16 +92,16 @@ inline SurfacePoint free_source() {
 /// A ray that leaves a light.
 struct EmittedRay {
     Ray ray;
-    SurfacePoint surface;  ///< where it leaves; surface.object == no_object for free sources
+    SurfacePoint surface = free_source();  ///< where it leaves; no object for free sources
     /// Share of the light's flux that the ray stands for when one ray is sampled: expectation 1.
     double weight = 1.0;
 };
 
 /// How a light reaches a point x from one sampled point of it.
 struct Illumination {
-    Vec3 direction;        ///< from x toward the light, unit
-    Vec3 position;         ///< of the emitting point; for a beam the point of its cross section
-    SurfacePoint surface;  ///< of the emitting point; object == no_object for free sources
+    Vec3 direction;  ///< from x toward the light, unit
+    Vec3 position;   ///< of the emitting point; for a beam the point of its cross section
+    SurfacePoint surface = free_source();  ///< of that point; no object for free sources
     /// Irradiance factor on a plane that faces the light, divided by the sampling density:
     /// E_perpendicular = flux_w_per_nm * factor, factor in 1/m2.
     double factor = 0.0;

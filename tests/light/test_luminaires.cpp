@@ -1,0 +1,289 @@
+// Luminaires: a measured intensity that leaves an opening of finite size.
+#include "light_checks.h"
+#include "optics/geometry/mesh.h"
+#include "optics/light/light.h"
+#include "optics/light/opening.h"
+
+using namespace lucerna;
+using namespace lucerna::optics;
+using namespace lucerna::test;
+using Catch::Matchers::WithinRel;
+
+namespace {
+
+constexpr ObjectId object = 3;
+
+// Without symmetry, mostly downward, some of it up.
+std::shared_ptr<const IntensityDistribution> skewed() {
+    return std::make_shared<const IntensityDistribution>(
+        std::vector<double>{0, 90, 180, 270, 360}, std::vector<double>{0, 45, 90, 135, 180},
+        std::vector<std::vector<double>>{{90, 120, 30, 10, 20},
+                                         {90, 80, 10, 5, 20},
+                                         {90, 40, 20, 30, 20},
+                                         {90, 60, 50, 20, 20},
+                                         {90, 120, 30, 10, 20}});
+}
+
+std::shared_ptr<const IntensityDistribution> cosine() {
+    std::vector<double> gamma;
+    std::vector<double> values;
+    for (int i = 0; i <= 900; ++i) {
+        gamma.push_back(0.1 * i);
+        values.push_back(std::max(0.0, std::cos(gamma.back() * pi / 180.0)));
+    }
+    values.back() = 0.0;
+    return std::make_shared<const IntensityDistribution>(std::vector<double>{0}, gamma,
+                                                         std::vector<std::vector<double>>{values});
+}
+
+// Placed and turned in the scene, to find a rotation that is applied the wrong way round.
+Placement turned() {
+    Placement placement = Placement::Identity();
+    placement.translate(Vec3(1, 2, 3));
+    placement.rotate(Eigen::AngleAxisd(0.7, Vec3(1, 2, -1).normalized()));
+    return placement;
+}
+
+Luminaire luminaire(const Opening& opening,
+                    std::shared_ptr<const IntensityDistribution> intensity) {
+    Luminaire light;
+    light.position = turned().translation();
+    light.to_photometric = turned().linear().transpose();
+    light.intensity = std::move(intensity);
+    if (auto mesh = opening_mesh(opening)) {
+        light.object = object;
+        light.opening = MeshInstance{prepare_mesh(mesh->vertices, mesh->triangles), turned()};
+    }
+    return light;
+}
+
+Opening box() {
+    return {Opening::Kind::box, {0.3, 1.2, 0.1}, Opening::Axis::z, {0.1, 0.1, 0.1, 0.1}};
+}
+
+// Projected area of that box in the photometric frame, from its edges.
+double box_area_m2(const Vec3& w) {
+    return 0.3 * 1.2 * std::abs(w.z()) + 1.2 * 0.1 * std::abs(w.x()) + 0.3 * 0.1 * std::abs(w.y());
+}
+
+}  // namespace
+
+TEST_CASE("Radiance of a luminaire is intensity by projected area", "[light][analytic]") {
+    const Luminaire light = luminaire(box(), skewed());
+    for (std::uint32_t i = 0; i < 100; ++i) {
+        const auto u = uniforms(i);
+        const Vec3 local = Vec3(u[0] - 0.5, u[1] - 0.5, u[2] - 0.5).normalized();
+        const Vec3 w = turned().linear() * local;
+        const SurfacePoint seen = light.opening.faces().sample_toward(w, u[3], 0.4);
+        const double truth = light.intensity->intensity_cd(local) /
+                             light.intensity->luminous_flux_lm() / box_area_m2(local);
+        CHECK_THAT(radiance_factor(light, seen, w), WithinRel(truth, 1e-9));
+        CHECK(radiance_factor(light, seen, -w) == 0.0);
+    }
+    // A sheet: I / (A cos), on both sides.
+    const Luminaire sheet = luminaire({Opening::Kind::rectangle, {0.3, 1.2, 0.0}}, skewed());
+    const SurfacePoint point = sheet.opening.faces().sample_toward(Vec3::UnitX(), 0.5, 0.5);
+    for (const double z : {-0.8, 0.8}) {
+        const Vec3 local(0.6, 0.0, z);
+        const double truth = sheet.intensity->intensity_cd(local) /
+                             sheet.intensity->luminous_flux_lm() / (0.36 * 0.8);
+        CHECK_THAT(radiance_factor(sheet, point, turned().linear() * local),
+                   WithinRel(truth, 1e-9));
+    }
+}
+
+TEST_CASE("A luminaire emits its intensity, whatever its opening", "[light][statistical]") {
+    const std::vector<Opening> openings = {
+        {},
+        {Opening::Kind::rectangle, {0.3, 1.2, 0.0}},
+        box(),
+        {Opening::Kind::cylinder, {0.3, 0.3, 0.2}},
+        {Opening::Kind::ellipsoid, {0.3, 0.4, 0.5}},
+        {Opening::Kind::box, {0.3, 1.2, 0.1}, Opening::Axis::z, {0.1, 0.0, 0.05, 0.0}}};
+    for (const Opening& opening : openings) {
+        const Luminaire light = luminaire(opening, skewed());
+        constexpr int columns = 24;
+        constexpr int rows = 18;
+        constexpr std::uint32_t n = 200000;
+        std::vector<double> counts(columns * rows);
+        bool weights_are_one = true;
+        bool emits_there = true;
+        for (std::uint32_t i = 0; i < n; ++i) {
+            const auto u = uniforms(i);
+            const EmittedRay ray = emit(light, u[0], u[1], u[2], u[3]);
+            weights_are_one = weights_are_one && ray.weight == 1.0;
+            if (light.object == object) {
+                emits_there = emits_there && ray.surface.object == object &&
+                              radiance_factor(light, ray.surface, ray.ray.direction) > 0.0;
+            }
+            const Vec3 w = light.to_photometric * ray.ray.direction;
+            double c = std::atan2(w.y(), w.x()) / (2.0 * pi);
+            if (c < 0.0) c += 1.0;
+            const int column = std::min(columns - 1, static_cast<int>(c * columns));
+            const int row = std::min(rows - 1, static_cast<int>(std::acos(-w.z()) / pi * rows));
+            counts[static_cast<std::size_t>(row * columns + column)] += 1.0;
+        }
+        // Expected by midpoints of the intensity, 10 x 10 per bin.
+        std::vector<double> expected(columns * rows);
+        for (int bin = 0; bin < columns * rows; ++bin) {
+            double sum = 0.0;
+            for (int i = 0; i < 100; ++i) {
+                const double c = (bin % columns + (i % 10 + 0.5) / 10) * 360.0 / columns;
+                const double gamma = (bin / columns + (i / 10 + 0.5) / 10) * 180.0 / rows;
+                sum += light.intensity->intensity_cd(IntensityDistribution::direction(c, gamma)) *
+                       std::sin(gamma * pi / 180.0);
+            }
+            const double cell = 2.0 * pi / columns * pi / rows / 100.0;
+            expected[static_cast<std::size_t>(bin)] =
+                n * sum * cell / light.intensity->luminous_flux_lm();
+        }
+        CHECK(weights_are_one);
+        CHECK(emits_there);
+        CHECK(chi_square_deviate(counts, expected) < level_1e6);
+    }
+}
+
+TEST_CASE("Each face of an opening emits radiance times cosine", "[light][statistical]") {
+    const Luminaire light = luminaire(box(), skewed());
+    // Share of the flux per face: integral of L n.w A over its hemisphere, by midpoints.
+    const std::array<Vec3, 6> normals = {-Vec3::UnitX(), Vec3::UnitX(),  -Vec3::UnitY(),
+                                         Vec3::UnitY(),  -Vec3::UnitZ(), Vec3::UnitZ()};
+    const std::array<double, 6> areas = {0.12, 0.12, 0.03, 0.03, 0.36, 0.36};
+    std::vector<double> expected(6);
+    constexpr int steps = 400;
+    for (int i = 0; i < steps; ++i) {
+        for (int j = 0; j < 2 * steps; ++j) {
+            const double gamma = (i + 0.5) * 180.0 / steps;
+            const Vec3 w = IntensityDistribution::direction((j + 0.5) * 180.0 / steps, gamma);
+            const double solid_angle = std::sin(gamma * pi / 180.0) * std::pow(pi / steps, 2);
+            const double radiance = light.intensity->pdf_solid_angle(w) / box_area_m2(w);
+            for (std::size_t face = 0; face < 6; ++face) {
+                expected[face] +=
+                    radiance * std::max(0.0, normals[face].dot(w)) * areas[face] * solid_angle;
+            }
+        }
+    }
+    constexpr std::uint32_t n = 200000;
+    std::vector<double> counts(6);
+    Vec3 mean_on_bottom = Vec3::Zero();
+    for (std::uint32_t i = 0; i < n; ++i) {
+        const auto u = uniforms(i);
+        const EmittedRay ray = emit(light, u[0], u[1], u[2], u[3]);
+        const Vec3 normal = light.to_photometric * ray.surface.normal;
+        for (std::size_t face = 0; face < 6; ++face) {
+            if (normals[face].dot(normal) > 0.99) counts[face] += 1.0;
+        }
+        if (normal.z() < -0.99) mean_on_bottom += turned().inverse() * ray.surface.position;
+    }
+    for (double& value : expected) value *= n;
+    CHECK(chi_square_deviate(counts, expected) < level_1e6);
+    // Uniform over the bottom: its mean is the centre, within 5 SE of 1.2 / sqrt(12 n).
+    mean_on_bottom /= counts[4];
+    CHECK(std::abs(mean_on_bottom.x()) < 5.0 * 0.3 / std::sqrt(12.0 * counts[4]));
+    CHECK(std::abs(mean_on_bottom.y()) < 5.0 * 1.2 / std::sqrt(12.0 * counts[4]));
+    CHECK_THAT(mean_on_bottom.z(), WithinRel(-0.05, 1e-9));
+}
+
+TEST_CASE("Far away a luminaire illuminates as its intensity by the square of the distance",
+          "[light][analytic]") {
+    for (const Opening& opening : {Opening{}, Opening{Opening::Kind::rectangle, {0.3, 1.2, 0.0}},
+                                   box(), Opening{Opening::Kind::cylinder, {0.3, 0.3, 0.2}},
+                                   Opening{Opening::Kind::ellipsoid, {0.3, 0.4, 0.5}}}) {
+        const Luminaire light = luminaire(opening, skewed());
+        for (const Vec3& direction : {Vec3(0.3, 0.2, -1), Vec3(1, 0.5, -0.3), Vec3(-1, 1, 2)}) {
+            const Vec3 local = direction.normalized();
+            const double distance = 1000.0;
+            const Vec3 x = light.position + distance * (turned().linear() * local);
+            const Mean mean = mean_of(20000, [&](const auto& u) {
+                const auto sample = illuminate(light, x, u[0], u[1]);
+                return sample ? sample->factor : 0.0;
+            });
+            const double truth = light.intensity->pdf_solid_angle(local) / (distance * distance);
+            // The extent of 1 m against 1000 m, and the slope of the interpolant.
+            CHECK(std::abs(mean.value / truth - 1.0) <
+                  2e-3 + level_1e6 * mean.standard_error / truth);
+        }
+    }
+}
+
+TEST_CASE("A luminaire with a cosine distribution illuminates as a Lambertian rectangle",
+          "[light][analytic]") {
+    const Luminaire light = luminaire({Opening::Kind::rectangle, {0.6, 1.2, 0.0}}, cosine());
+    const Rectangle shape{{-0.3, -0.6, 0.0}, {0.0, 1.2, 0.0}, {0.6, 0.0, 0.0}};
+    const AreaLight lambertian{object, shape};
+    for (const Vec3& x : {Vec3(0, 0, -0.5), Vec3(1, 0.4, -0.7)}) {
+        const auto lambert = mean_of(100000, [&](const auto& u) {
+            const auto sample = illuminate(lambertian, x, u[0], u[1]);
+            return sample->factor * std::abs(sample->direction.z());
+        });
+        const auto measured = mean_of(100000, [&](const auto& u) {
+            const auto sample = illuminate(light, turned() * x, u[0], u[1]);
+            return sample->factor * std::abs((light.to_photometric * sample->direction).z());
+        });
+        // The same integrand but for the interpolation of the cosine (4e-7) and independent points.
+        check_mean(measured.value, std::hypot(measured.standard_error, lambert.standard_error),
+                   lambert.value, {0.05}, 1e-5 * lambert.value);
+    }
+}
+
+TEST_CASE("Illumination by a luminaire integrates its radiance near by", "[light][analytic]") {
+    // E of the box at a near point by midpoints over its faces, against the sampled mean.
+    const Luminaire light = luminaire(box(), skewed());
+    for (const Vec3& local_x : {Vec3(0.3, 0.2, -0.4), Vec3(0.8, -1.0, 0.3)}) {
+        const Vec3 half(0.15, 0.6, 0.05);
+        double truth = 0.0;
+        for (int axis = 0; axis < 3; ++axis) {
+            const int a = (axis + 1) % 3;
+            const int b = (axis + 2) % 3;
+            for (const double sign : {-1.0, 1.0}) {
+                constexpr int steps = 300;
+                const double patch = 4.0 * half[a] * half[b] / (steps * steps);
+                for (int i = 0; i < steps * steps; ++i) {
+                    Vec3 p;
+                    p[axis] = sign * half[axis];
+                    p[a] = (2.0 * (i % steps + 0.5) / steps - 1.0) * half[a];
+                    p[b] = (2.0 * (i / steps + 0.5) / steps - 1.0) * half[b];
+                    const Vec3 to_x = local_x - p;
+                    const Vec3 w = to_x.normalized();
+                    const double cosine = sign * w[axis];
+                    if (cosine <= 0.0) continue;
+                    truth += light.intensity->pdf_solid_angle(w) / box_area_m2(w) * cosine * patch /
+                             to_x.squaredNorm();
+                }
+            }
+        }
+        const Vec3 x = turned() * local_x;
+        const Mean mean = mean_of(400000, [&](const auto& u) {
+            const auto sample = illuminate(light, x, u[0], u[1]);
+            return sample ? sample->factor : 0.0;
+        });
+        check_mean(mean.value, mean.standard_error, truth, {0.02}, 2e-4 * truth);
+    }
+}
+
+TEST_CASE("Density, factor and radiance of a luminaire's illumination fit together",
+          "[light][property]") {
+    for (const Opening& opening : {Opening{Opening::Kind::rectangle, {0.3, 1.2, 0.0}}, box(),
+                                   Opening{Opening::Kind::ellipsoid, {0.3, 0.4, 0.5}}}) {
+        const Luminaire light = luminaire(opening, skewed());
+        for (std::uint32_t i = 0; i < 200; ++i) {
+            const auto u = uniforms(i);
+            const Vec3 x = light.position + 4.0 * Vec3(u[2] - 0.5, u[3] - 0.5, u[0] - 0.5);
+            const auto sample = illuminate(light, x, u[0], u[1]);
+            if (!sample) continue;
+            CHECK_THAT(illuminate_pdf_solid_angle(light, x, sample->surface),
+                       WithinRel(sample->pdf_solid_angle, 1e-9));
+            CHECK_THAT(radiance_factor(light, sample->surface, -sample->direction),
+                       WithinRel(sample->factor * sample->pdf_solid_angle, 1e-9));
+            CHECK(sample->surface.object == object);
+        }
+    }
+    CHECK(emitting_object(luminaire(box(), skewed())) == object);
+    CHECK(emitting_object(luminaire({}, skewed())) == no_object);
+    CHECK(illuminate(luminaire({}, skewed()), {0, 0, 0}, 0.5, 0.5)->delta);
+}
+
+TEST_CASE("Only rectangles and meshes are openings", "[light][unit]") {
+    CHECK_THROWS_AS(LuminousOpening(Sphere{{0, 0, 0}, 1.0}), std::invalid_argument);
+    CHECK_NOTHROW(LuminousOpening(Rectangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+}

@@ -102,6 +102,7 @@ struct CommandLine {
         if (*run_command) return cli::run(run);
         if (*check_command) return cli::check(scene_to_check);
         if (*compare_command) return cli::compare(compare);
+        if (*bench_command) return cli::bench(scene_to_time, paths_to_time);
         if (*photometry_command) return cli::photometry(photometric_file);
         fmt::print(stderr, "{}", app.help());
         return cli::bad_input;

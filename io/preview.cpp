@@ -55,8 +55,8 @@ NaturalPreview natural_preview(const optics::Image& image) {
 FalseColourPreview false_colour_preview(const optics::Image& image) {
     constexpr double most_decades = 3.0;
     const std::vector<double> sorted = sorted_luminances(image);
-    const double max = round_up(percentile(sorted, 0.999));
-    const double lowest = std::max(percentile(sorted, 0.001), max * std::pow(10.0, -most_decades));
+    const double max = round_up(percentile(sorted, 0.99));
+    const double lowest = std::max(percentile(sorted, 0.01), max * std::pow(10.0, -most_decades));
     const double min = std::min(round_down(lowest), max / 10.0);  // at least one decade
 
     constexpr int colours = 1024;

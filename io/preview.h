@@ -19,9 +19,10 @@ struct NaturalPreview {
 };
 NaturalPreview natural_preview(const optics::Image& image);
 
-/// The luminance on a logarithmic colour scale with its legend in cd/m2. The scale ends at values
-/// 1, 2 or 5 times powers of ten; it spans what the image holds, at most three decades below
-/// its 99.9th percentile.
+/// The luminance on a logarithmic colour scale with its legend in cd/m2. The scale spans the 1st to
+/// the 99th percentile of luminance, at least one decade and at most three below its upper end, out
+/// to values 1, 2 or 5 times powers of ten. What is beyond, such as a lamp in view, has the colour
+/// of the nearer end.
 struct FalseColourPreview {
     Raster raster;
     double min_luminance, max_luminance;  ///< [cd/m2] ends of the scale

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <array>
 
-#include "io/bsdf_xml.h"
-
 namespace lucerna::io {
 
 namespace {
@@ -323,15 +321,6 @@ private:
 
 optics::MeasuredBsdf read_bsdf_table(const TextFile& file) {
     return Reader(file).read();
-}
-
-std::shared_ptr<const optics::MeasuredBsdf> read_bsdf_file(const std::filesystem::path& path) {
-    const TextFile file = read_text_file(path);
-    const auto first = std::ranges::find_if(
-        file.lines, [](const std::string& line) { return !trimmed(line).empty(); });
-    const bool xml = first != file.lines.end() && trimmed(*first).starts_with('<');
-    return std::make_shared<const optics::MeasuredBsdf>(xml ? read_bsdf_xml(file)
-                                                            : read_bsdf_table(file));
 }
 
 }  // namespace lucerna::io

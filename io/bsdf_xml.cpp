@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <map>
@@ -250,7 +251,8 @@ private:
         const pugi::xml_node content = node.first_child();
         const std::string_view text = content.value();
         std::vector<float> values;
-        values.reserve(row_count * column_count);
+        // The bases may ask for any number of values; the file has at most one per two characters.
+        values.reserve(std::min(row_count * column_count, text.size() / 2 + 1));
         std::size_t begin = 0, bad = 0;
         constexpr std::string_view separators = " \t\r\n,;";
         while ((begin = text.find_first_not_of(separators, begin)) != std::string_view::npos) {

@@ -1,5 +1,6 @@
 // Weighted sum of other BSDFs: one component is chosen in proportion to its weight; where
 // scattering lobes overlap, the sample is weighted by the whole sum (one-sample balance heuristic).
+#include <algorithm>
 #include <cmath>
 
 #include "optics/material/models.h"

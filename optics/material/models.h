@@ -11,7 +11,7 @@ struct EventNumbers {
     double lobe, u1, u2;
 };
 
-/// Number of lanes that still count, as a weight: all, or the hero's alone.
+/// Mean over the lanes that still count: all, or the hero's alone.
 inline double live_mean(const Lanes& value, const SurfaceOptics& at) {
     return static_cast<double>(at.hero_only ? value[at.wavelengths.hero] : value.mean());
 }

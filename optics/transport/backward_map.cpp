@@ -94,13 +94,12 @@ Gathered BackwardMap::radiance(std::size_t i, std::uint64_t rays) const {
     const BackwardPhoton& backward = photons_[i];
     const Stage& stage = phase_->stage;
     const double radius_m = (*radii_)[kernel_patch(stage, backward.point)];
-    const double inner_m = inner_radius_factor * radius_m;
+    const KernelAreas areas = kernel_areas(stage, backward.point, radius_m);
     const double per_ray = 1.0 / static_cast<double>(rays);
     // L = throughput / (A N) sum f dPhi                                            METHOD eq. (3)
-    return {backward.throughput * sums_[i].radiance *
-                static_cast<float>(per_ray / kernel_area(stage, backward.point, radius_m)),
-            backward.throughput * sums_[i].radiance_inner *
-                static_cast<float>(per_ray / kernel_area(stage, backward.point, inner_m))};
+    return {
+        backward.throughput * sums_[i].radiance * static_cast<float>(per_ray / areas.full),
+        backward.throughput * sums_[i].radiance_inner * static_cast<float>(per_ray / areas.inner)};
 }
 
 std::size_t BackwardMap::bytes() const {

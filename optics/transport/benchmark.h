@@ -8,9 +8,9 @@ namespace lucerna::optics {
 
 /// Single-thread rates of one kind of trace; the best of several interleaved repetitions.
 struct TraceRate {
-    std::uint64_t rays = 0;         ///< segments and shadow rays of a repetition
-    double traced_per_s = 0.0;      ///< with all shading
-    double raw_per_s = 0.0;         ///< nearest hit of the same rays, nothing else
+    std::uint64_t rays = 0;     ///< segments and shadow rays of a repetition
+    double traced_per_s = 0.0;  ///< with all shading
+    double raw_per_s = 0.0;     ///< nearest hit of the same rays, nothing else
     double fraction() const { return raw_per_s > 0.0 ? traced_per_s / raw_per_s : 0.0; }
 };
 

@@ -9,9 +9,14 @@ bool in_kernel(const Stage& stage, const SurfacePoint& p, const SurfacePoint& q,
            within_kernel(stage.parts().objects[p.object].shape, p, q, radius_m);
 }
 
-double kernel_area(const Stage& stage, const SurfacePoint& p, double radius_m) {
-    if (p.object == no_object) return pi * radius_m * radius_m;
-    return kernel_area_m2(stage.parts().objects[p.object].shape, p, radius_m);
+KernelAreas kernel_areas(const Stage& stage, const SurfacePoint& p, double radius_m) {
+    const double disc = pi * radius_m * radius_m;
+    if (p.object == no_object) return {disc, disc / 2.0};
+    const Shape& shape = stage.parts().objects[p.object].shape;
+    const double full = kernel_area_m2(shape, p, radius_m);
+    // A whole disc holds the whole inner disc, which has half its area.
+    if (full == disc) return {disc, disc / 2.0};
+    return {full, kernel_area_m2(shape, p, inner_radius_factor * radius_m)};
 }
 
 Vec3 kernel_direction(const Frame& frame, const Photon& photon) {
@@ -67,8 +72,9 @@ Gathered ForwardMap::gather(const Phase& phase, const Radii& radii, const Gather
     }
     if (!found) return sum;
     // L = 1 / (A N) sum f dPhi                                                      METHOD eq. (2)
-    sum.radiance *= static_cast<float>(per_ray_ / kernel_area(stage, at.point, radius_m));
-    sum.radiance_inner *= static_cast<float>(per_ray_ / kernel_area(stage, at.point, inner_m));
+    const KernelAreas areas = kernel_areas(stage, at.point, radius_m);
+    sum.radiance *= static_cast<float>(per_ray_ / areas.full);
+    sum.radiance_inner *= static_cast<float>(per_ray_ / areas.inner);
     return sum;
 }
 

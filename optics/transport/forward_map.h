@@ -19,8 +19,11 @@ inline std::uint32_t kernel_patch(const Stage& stage, const SurfacePoint& p) {
 /// True if q lies in the kernel of p; both have the same kernel patch.
 bool in_kernel(const Stage& stage, const SurfacePoint& p, const SurfacePoint& q, double radius_m);
 
-/// Area over which the kernel of p collects [m2].
-double kernel_area(const Stage& stage, const SurfacePoint& p, double radius_m);
+/// Areas over which the kernel of p collects at the full and at the inner radius [m2].
+struct KernelAreas {
+    double full, inner;
+};
+KernelAreas kernel_areas(const Stage& stage, const SurfacePoint& p, double radius_m);
 
 /// Local direction toward where a photon came from, for the BSDF at the centre of the kernel. The
 /// cosine is that at the photon's own point, so that a curved surface loses no grazing light.

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/diagnostics.h"
 #include "spectral/photometry.h"
 
@@ -26,6 +28,12 @@ spectral::Spectrum total_emission(const SceneParts& parts) {
         values.push_back(sum);
     }
     return {std::move(wavelengths_nm), std::move(values), spectral::Outside::zero};
+}
+
+spectral::Dispersion dispersion_of(const SceneParts& parts) {
+    const bool dispersive = std::any_of(parts.media.begin(), parts.media.end(),
+                                        [](const Medium& medium) { return medium.dispersive; });
+    return dispersive ? spectral::Dispersion::present : spectral::Dispersion::none;
 }
 
 std::vector<double> luminous_fluxes(const SceneParts& parts) {
@@ -66,7 +74,7 @@ const SceneParts& checked(const SceneParts& parts) {
 Stage::Stage(const SceneParts& parts)
     : parts_(checked(parts)),
       caster_(shapes_of(parts)),
-      wavelengths_(total_emission(parts)),
+      wavelengths_(total_emission(parts), dispersion_of(parts)),
       light_of_object_(parts.objects.size(), no_light),
       light_choice_(luminous_fluxes(parts)) {
     for (std::uint32_t i = 0; i < parts_.lights.size(); ++i) {

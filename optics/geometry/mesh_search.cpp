@@ -31,7 +31,12 @@ double triangle_in_ball_m2(const Mesh& mesh, std::uint32_t triangle, const Vec3&
         return Vec2(frame.to_local(mesh.vertices[vertex] - centre).head<2>());
     };
     const std::array corners{in_plane(a), in_plane(b), in_plane(c)};
-    const double disc_radius_m = std::sqrt((radius_m - height_m) * (radius_m + height_m));
+    const double disc_radius_squared = (radius_m - height_m) * (radius_m + height_m);
+    if (std::all_of(corners.begin(), corners.end(), [&](const Vec2& corner) {
+            return corner.squaredNorm() <= disc_radius_squared;
+        }))
+        return mesh.areas_m2[triangle];
+    const double disc_radius_m = std::sqrt(disc_radius_squared);
     return std::max(disc_polygon_area(corners, disc_radius_m), 0.0);
 }
 

@@ -328,9 +328,9 @@ Hit RayCaster::Impl::mesh_hit(ObjectId object, std::uint32_t triangle, const Ray
     return hit;
 }
 
-/// Whether a triangle found in single precision counts: not the one that the ray leaves or is meant
-/// to reach; and if one of these ends lies close to the triangle's plane, so that rounding may have
-/// put it on the wrong side, only if double precision says so.
+/// Whether a triangle found in single precision counts, other than the one that the ray leaves or
+/// is meant to reach: if one of these ends lies close to the triangle's plane, so that rounding may
+/// have put it on the wrong side, only if double precision says so.
 bool RayCaster::Impl::keeps(const Query& query, ObjectId object, std::uint32_t triangle) const {
     const MeshInstance& s = std::get<MeshInstance>(shapes[object]);
     const Mesh& mesh = *s.mesh;
@@ -341,18 +341,16 @@ bool RayCaster::Impl::keeps(const Query& query, ObjectId object, std::uint32_t t
     const double height_m = (corner - ray.origin).dot(mesh.normals[triangle]);
     const bool near_start = std::abs(height_m) < near_m;
     if (query.start && query.start->object == object) {
-        const std::uint32_t start = query.start->primitive;
-        if (triangle == start) return false;
-        if (near_start && !can_hit_from(mesh, start, triangle, ray.direction)) return false;
+        if (near_start && !can_hit_from(mesh, query.start->primitive, triangle, ray.direction))
+            return false;
     } else if (near_start && height_m / slope <= 0.0) {
         return false;
     }
     if (query.reach_m == infinity) return true;
     const bool near_end = std::abs(height_m - query.reach_m * slope) < near_m;
     if (query.end && query.end->object == object) {
-        const std::uint32_t end = query.end->primitive;
-        if (triangle == end) return false;
-        if (near_end && !can_hit_from(mesh, end, triangle, -ray.direction)) return false;
+        if (near_end && !can_hit_from(mesh, query.end->primitive, triangle, -ray.direction))
+            return false;
     } else if (near_end && height_m / slope >= query.reach_m) {
         return false;
     }
@@ -489,9 +487,22 @@ void RayCaster::Impl::occlude_exact(const RTCOccludedFunctionNArguments* args) {
 void RayCaster::Impl::filter_triangle(const RTCFilterFunctionNArguments* args) {
     const Query& query = *reinterpret_cast<const Query*>(args->context);
     const RTCHit& hit = *reinterpret_cast<const RTCHit*>(args->hit);
-    if (hit.geomID == query.caster->exact_geometry && hit.instID[0] == RTC_INVALID_GEOMETRY_ID)
-        return;
+    const RTCRay& ray = *reinterpret_cast<const RTCRay*>(args->ray);
     const ObjectId object = hit.instID[0] == RTC_INVALID_GEOMETRY_ID ? hit.geomID : hit.instID[0];
+    const auto is_end = [&](const SurfacePoint* p) {
+        return p && p->object == object && p->primitive == hit.primID;
+    };
+    if (is_end(query.start) || is_end(query.end)) {
+        args->valid[0] = 0;
+        return;
+    }
+    // Most triangles are so far from both ends that single precision is enough to see it.
+    const Eigen::Vector3f normal(hit.Ng_x, hit.Ng_y, hit.Ng_z);
+    const Eigen::Vector3f direction(ray.dir_x, ray.dir_y, ray.dir_z);
+    const double slope = static_cast<double>(std::abs(direction.dot(normal)) / normal.norm());
+    const double distance_m = static_cast<double>(ray.tfar) + query.skipped_m;
+    const double near_m = 32.0 * query.caster->offset_m[object];
+    if (slope * std::min(distance_m, query.reach_m - distance_m) > near_m) return;
     if (!query.caster->keeps(query, object, hit.primID)) args->valid[0] = 0;
 }
 

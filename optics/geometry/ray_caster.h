@@ -22,7 +22,8 @@ public:
     ///
     /// @param start  the surface point from which the ray leaves, or nullptr for a free origin. It
     ///   is not hit again: the root at the origin is left out in closed form for exact shapes, and
-    ///   the triangle is left out for meshes, so that no distance threshold is needed.
+    ///   the triangle is left out for meshes, so that no distance threshold is needed. On an edge
+    ///   the neighbouring face may be hit at distance 0. A ray within a closed shape is never lost.
     std::optional<Hit> intersect(const Ray& ray, const SurfacePoint* start,
                                  double max_distance_m = infinity) const;
 

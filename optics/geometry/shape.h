@@ -76,8 +76,8 @@ SurfacePoint sample_area(const Shape& shape, double u1, double u2);
 
 /// Area of the kernel around a surface point: { x in the same patch : |x - p| < radius } [m2].
 /// For a Cylinder or Tube side the distance is that of the unrolled surface (see within_kernel).
-/// Exact for the exact shapes and for meshes whose patches are plane; for curved mesh patches
-/// biased by O((radius * curvature)^2) away from their border.
+/// Exact for all shapes, for a mesh as the sum over its plane triangles: the area of the surface as
+/// it is meshed, not of the smooth one that the mesh stands for.
 double kernel_area_m2(const Shape& shape, const SurfacePoint& p, double radius_m);
 
 /// True if q lies in the kernel of p: same object and patch, and closer than the radius.

@@ -1,4 +1,4 @@
-// Nearest hits of rays with objects. The only file that knows of Embree is ray_caster.cpp.
+// Nearest hits of rays with objects. Only the files ray_caster*.cpp know of Embree.
 #pragma once
 
 #include <memory>

@@ -491,33 +491,11 @@ PlaneTable IesReader::full_circle_of_types_a_and_b() {
     }
     symmetry_ = mirrored ? "H" : "none";
 
-    double spacing_deg = 2.0;
-    for (const auto* angles : {&horizontal_deg_, &vertical_deg_}) {
-        for (std::size_t i = 1; i < angles->size(); ++i) {
-            spacing_deg = std::min(spacing_deg, (*angles)[i] - (*angles)[i - 1]);
-        }
-    }
-    const int steps_per_degree = std::clamp(static_cast<int>(std::ceil(2.0 / spacing_deg)), 1, 4);
-    const auto bracket = [](const std::vector<double>& grid, double value) {
-        const auto above = std::upper_bound(grid.begin() + 1, grid.end() - 1, value);
-        const auto i = static_cast<std::size_t>(above - grid.begin()) - 1;
-        return std::pair{i, (value - grid[i]) / (grid[i + 1] - grid[i])};
-    };
-    const auto intensity = [&](const Vec3& direction) {
-        auto [h, v] =
-            type_ == 'A' ? optics::type_a_angles(direction) : optics::type_b_angles(direction);
-        if (mirrored) h = std::abs(h);
-        // The rounding of the angles must not lose the edge of the table.
-        constexpr double rounding_deg = 1e-9;
-        const auto outside = [&](double angle, const std::vector<double>& grid) {
-            return angle < grid.front() - rounding_deg || angle > grid.back() + rounding_deg;
-        };
-        if (outside(h, horizontal_deg_) || outside(v, vertical_deg_)) return 0.0;
-        const auto [i, s] = bracket(horizontal_deg_, h);
-        const auto [j, t] = bracket(vertical_deg_, v);
-        return std::max(0.0, (1.0 - s) * ((1.0 - t) * table_[i][j] + t * table_[i][j + 1]) +
-                                 s * ((1.0 - t) * table_[i + 1][j] + t * table_[i + 1][j + 1]));
-    };
+    const optics::GoniometerTable source(
+        type_ == 'A' ? optics::GoniometerType::a : optics::GoniometerType::b, mirrored,
+        horizontal_deg_, vertical_deg_, table_);
+    const int steps_per_degree =
+        std::clamp(static_cast<int>(std::ceil(2.0 / source.finest_spacing_deg())), 1, 4);
     PlaneTable table;
     for (int g = 0; g <= 180 * steps_per_degree; ++g) {
         table.gamma_deg.push_back(static_cast<double>(g) / steps_per_degree);
@@ -526,7 +504,7 @@ PlaneTable IesReader::full_circle_of_types_a_and_b() {
         const double c_deg = static_cast<double>(c) / steps_per_degree;
         std::vector<double> plane;
         for (const double gamma_deg : table.gamma_deg) {
-            plane.push_back(intensity(optics::IntensityDistribution::direction(c_deg, gamma_deg)));
+            plane.push_back(source.at(optics::IntensityDistribution::direction(c_deg, gamma_deg)));
         }
         table.add_plane(c_deg, plane);
     }

@@ -1,6 +1,8 @@
 // The angles of photometric types A and B (LM-63-2002, section 3; LM-75) in our photometric frame.
 #pragma once
 
+#include <vector>
+
 #include "core/vector.h"
 
 namespace lucerna::optics {
@@ -26,5 +28,25 @@ Vec3 type_a_direction(const GoniometerAngles& angles);
 /// @return H in [-90, 90], V in (-180, 180].
 GoniometerAngles type_b_angles(const Vec3& direction);
 Vec3 type_b_direction(const GoniometerAngles& angles);
+
+enum class GoniometerType { a, b };
+
+/// A table over the angles of a goniometer of type A or B, bilinear in them and 0 outside.
+class GoniometerTable {
+public:
+    /// @param mirrored  given for H >= 0 only: the same for -H
+    /// @param values    [horizontal][vertical]; at least two increasing angles of each kind
+    GoniometerTable(GoniometerType type, bool mirrored, std::vector<double> horizontal_deg,
+                    std::vector<double> vertical_deg, std::vector<std::vector<double>> values);
+
+    double at(const Vec3& direction) const;
+    double finest_spacing_deg() const;
+
+private:
+    GoniometerType type_;
+    bool mirrored_;
+    std::vector<double> horizontal_deg_, vertical_deg_;
+    std::vector<std::vector<double>> values_;
+};
 
 }  // namespace lucerna::optics

@@ -1,6 +1,5 @@
 #include "io/colour_map.h"
 
-
 namespace lucerna::io {
 namespace {
 

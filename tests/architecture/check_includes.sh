@@ -22,7 +22,7 @@ declare -A arrows=(
 
 # Beginning of an #include <...> : what may include it, as a pattern of paths.
 libraries=(
-    "embree optics/geometry/ray_caster.cpp"
+    "embree optics/geometry/ray_caster*"
     "CGAL/ optics/geometry/*"
     "Eigen/ *"
     "fmt/ *"

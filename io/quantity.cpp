@@ -100,7 +100,8 @@ Quantity parse_quantity(std::string_view text, const Dimension& dimension) {
     };
     std::string_view rest = trimmed(text);
     if (rest.empty()) throw complain("is empty");
-    if (rest.front() == '+') rest.remove_prefix(1);
+    // from_chars() knows no plus sign; one before a minus sign stays, and is refused.
+    if (rest.front() == '+' && !rest.starts_with("+-")) rest.remove_prefix(1);
 
     double number = 0.0;
     const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), number);

@@ -54,9 +54,8 @@ const Material* SceneMaterials::find(const YamlCursor& cursor) {
     if (found == entries_.end()) {
         std::vector<std::string> known{"none"};
         for (const auto& [key, entry] : entries_) known.push_back(key);
-        const std::string nearest = nearest_word(*name, known);
-        cursor.complain(fmt::format("there is no material '{}'{}", *name,
-                                    nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));
+        cursor.complain(
+            fmt::format("there is no material '{}'{}", *name, did_you_mean(*name, known)));
         return nullptr;
     }
     if (found->second.state == Entry::State::reading) {

@@ -74,9 +74,7 @@ std::optional<ObjectId> SceneObjects::find(const YamlCursor& cursor) const {
     if (found != ids_.end()) return found->second;
     std::vector<std::string> known;
     for (const auto& [key, id] : ids_) known.push_back(key);
-    const std::string nearest = nearest_word(*name, known);
-    cursor.complain(fmt::format("there is no object '{}'{}", *name,
-                                nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));
+    cursor.complain(fmt::format("there is no object '{}'{}", *name, did_you_mean(*name, known)));
     return {};
 }
 

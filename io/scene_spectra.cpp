@@ -75,11 +75,10 @@ std::optional<Spectrum> read_illuminant(const YamlCursor& cursor) {
     const auto name = cursor.word();
     if (!name) return {};
     if (const auto found = spectral::illuminant(*name)) return found;
-    const std::string nearest = nearest_word(*name, spectral::illuminant_names());
     cursor.complain(fmt::format(
         "'{}' is not an illuminant that is known; expected a name such as D65, A, E or LED-B3, or "
         "{{planck: 2856 K}}, {{daylight: 6500 K}}, {{file: ..., column: ...}} or {{points: ...}}{}",
-        *name, nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest)));
+        *name, did_you_mean(*name, spectral::illuminant_names())));
     return {};
 }
 

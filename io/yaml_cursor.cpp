@@ -20,12 +20,12 @@ std::string quoted_list(const std::vector<std::string>& words) {
     return text;
 }
 
+}  // namespace
+
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& known) {
     const std::string nearest = nearest_word(word, known);
     return nearest.empty() ? "" : fmt::format("; did you mean '{}'?", nearest);
 }
-
-}  // namespace
 
 SourceLocation YamlCursor::where() const {
     return node_ ? SourceLocation{*file_, node_->line, node_->column} : SourceLocation{};

@@ -92,6 +92,9 @@ private:
     std::vector<std::string> known_;
 };
 
+/// "; did you mean 'height'?" with the nearest of the known words, or "" if none is near.
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& known);
+
 /// What values of a number are accepted.
 enum class Accept { any, not_negative, positive, up_to_one };
 

@@ -110,3 +110,16 @@ TEST_CASE("The furnished room has what its sensors need", "[unit]") {
         CHECK(box.max().z() <= 2.8 + 1e-9);
     }
 }
+
+TEST_CASE("No sensor of an example stands inside a solid", "[unit]") {
+    const SceneFile scene = example(GENERATE("cornell_caustic", "room2"));
+    for (const Observer& observer : scene.parts.observers) {
+        const auto* points = std::get_if<IlluminancePoints>(&observer);
+        if (!points) continue;
+        for (const Vec3& position : points->positions)
+            for (const Object& object : scene.parts.objects) {
+                CAPTURE(points->name, object.name, position.transpose());
+                CHECK_FALSE((is_solid(object.shape) && contains(object.shape, position)));
+            }
+    }
+}

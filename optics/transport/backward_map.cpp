@@ -1,5 +1,8 @@
 #include "optics/transport/backward_map.h"
 
+#include <algorithm>
+#include <bit>
+
 namespace lucerna::optics {
 namespace {
 
@@ -21,24 +24,45 @@ BackwardMap::BackwardMap(const Phase& phase, const Radii& radii,
     sums_.resize(photons_.size());
     touched_.resize(photons_.size());
 
-    std::vector<CellGrid<Candidate>::Entry> entries;
-    entries.reserve(4 * photons_.size());
-    for (std::uint32_t i = 0; i < photons_.size(); ++i) {
-        const Vec3& position = photons_[i].point.position;
-        const std::uint32_t patch = kernel_patch(phase.stage, photons_[i].point);
-        const double radius_m = radii[patch];
-        const Vec3 reach = Vec3::Constant(radius_m);
-        const CellKey low = CellKey::at(patch, position - reach, cell_per_radius * radius_m);
-        const CellKey high = CellKey::at(patch, position + reach, cell_per_radius * radius_m);
-        for (std::int32_t x = low.x; x <= high.x; ++x) {
-            for (std::int32_t y = low.y; y <= high.y; ++y) {
-                for (std::int32_t z = low.z; z <= high.z; ++z) {
-                    entries.push_back({{patch, x, y, z}, {i, position.cast<float>()}});
+    build_grid();
+}
+
+void BackwardMap::build_grid() {
+    if (photons_.empty()) return;
+    // Counted and then filled in two equal walks over all cells that the kernels meet.
+    bucket_mask_ = std::bit_ceil(4 * photons_.size()) - 1;
+    bucket_starts_.assign(bucket_mask_ + 2, 0);
+    std::vector<std::size_t> seen;  // of one photon
+    const auto for_each_bucket = [&](auto&& visit) {
+        for (std::uint32_t i = 0; i < photons_.size(); ++i) {
+            const Vec3& position = photons_[i].point.position;
+            const std::uint32_t patch = kernel_patch(phase_->stage, photons_[i].point);
+            const double radius_m = (*radii_)[patch];
+            const Vec3 reach = Vec3::Constant(radius_m);
+            const CellKey low = CellKey::at(patch, position - reach, cell_per_radius * radius_m);
+            const CellKey high = CellKey::at(patch, position + reach, cell_per_radius * radius_m);
+            seen.clear();
+            for (std::int32_t x = low.x; x <= high.x; ++x) {
+                for (std::int32_t y = low.y; y <= high.y; ++y) {
+                    for (std::int32_t z = low.z; z <= high.z; ++z) {
+                        const std::size_t bucket = CellKey{patch, x, y, z}.hash() & bucket_mask_;
+                        if (std::find(seen.begin(), seen.end(), bucket) != seen.end()) continue;
+                        seen.push_back(bucket);
+                        visit(bucket, i);
+                    }
                 }
             }
         }
+    };
+    for_each_bucket([&](std::size_t bucket, std::uint32_t) { ++bucket_starts_[bucket + 1]; });
+    for (std::size_t i = 1; i < bucket_starts_.size(); ++i) {
+        bucket_starts_[i] += bucket_starts_[i - 1];
     }
-    grid_.build(std::move(entries));
+    candidates_.resize(bucket_starts_.back());
+    std::vector<std::uint32_t> next(bucket_starts_.begin(), bucket_starts_.end() - 1);
+    for_each_bucket([&](std::size_t bucket, std::uint32_t i) {
+        candidates_[next[bucket]++] = {photons_[i].point.position.cast<float>(), i};
+    });
 }
 
 void BackwardMap::find(const Photon& photon, Deposits& deposits) const {
@@ -51,15 +75,18 @@ void BackwardMap::find(const Photon& photon, Deposits& deposits) const {
     const Eigen::Vector3f position = photon.point.position.cast<float>();
     const auto number = static_cast<std::uint32_t>(deposits.photons.size());
     bool used = false;
-    grid_.visit(CellKey::at(patch, photon.point.position, cell_per_radius * radius_m),
-                [&](const Candidate& candidate) {
-                    if ((candidate.position - position).squaredNorm() > square) return;
-                    const BackwardPhoton& backward = photons_[candidate.index];
-                    if (!(backward.accepts & static_cast<std::uint8_t>(photon.history))) return;
-                    if (!in_kernel(stage, backward.point, photon.point, radius_m)) return;
-                    deposits.by_part[part_of(candidate.index)].push_back({candidate.index, number});
-                    used = true;
-                });
+    const CellKey key = CellKey::at(patch, photon.point.position, cell_per_radius * radius_m);
+    const std::size_t bucket = key.hash() & bucket_mask_;
+    for (std::uint32_t k = bucket_starts_[bucket]; k < bucket_starts_[bucket + 1]; ++k) {
+        const Candidate& candidate = candidates_[k];
+        if ((candidate.position - position).squaredNorm() > square) continue;
+        const BackwardPhoton& backward = photons_[candidate.index];
+        if (!(backward.accepts & static_cast<std::uint8_t>(photon.history))) continue;
+        if (kernel_patch(stage, backward.point) != patch) continue;
+        if (!in_kernel(stage, backward.point, photon.point, radius_m)) continue;
+        deposits.by_part[part_of(candidate.index)].push_back({candidate.index, number});
+        used = true;
+    }
     if (used) deposits.photons.push_back(photon);
 }
 
@@ -103,7 +130,8 @@ Gathered BackwardMap::radiance(std::size_t i, std::uint64_t rays) const {
 }
 
 std::size_t BackwardMap::bytes() const {
-    return photons_.size() * (sizeof(BackwardPhoton) + sizeof(Gathered) + 1) + grid_.bytes();
+    return photons_.size() * (sizeof(BackwardPhoton) + sizeof(Gathered) + 1) +
+           bucket_starts_.size() * sizeof(std::uint32_t) + candidates_.size() * sizeof(Candidate);
 }
 
 }  // namespace lucerna::optics

@@ -63,10 +63,14 @@ public:
     std::size_t bytes() const;
 
 private:
+    // A backward photon as it stands in a bucket of the hashed grid: 16 bytes, for the cache. Cells
+    // that share a bucket are told apart by distance and patch; no photon stands twice in one
+    // bucket.
     struct Candidate {
-        std::uint32_t index;
         Eigen::Vector3f position;
+        std::uint32_t index;
     };
+    void build_grid();
 
     Gathered radiance(std::size_t i, std::uint64_t rays) const;
     std::size_t part_of(std::uint32_t i) const { return i * parts / photons_.size(); }
@@ -77,7 +81,9 @@ private:
     std::vector<std::size_t> block_starts_;
     std::vector<Gathered> sums_;  // of f dPhi, at both radii
     std::vector<std::uint8_t> touched_;
-    CellGrid<Candidate> grid_;  // each photon stands in all cells that its kernel meets
+    std::size_t bucket_mask_ = 0;
+    std::vector<std::uint32_t> bucket_starts_;
+    std::vector<Candidate> candidates_;  // each photon stands in all cells that its kernel meets
 };
 
 }  // namespace lucerna::optics

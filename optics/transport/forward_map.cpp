@@ -23,7 +23,7 @@ Vec3 kernel_direction(const Frame& frame, const Photon& photon) {
     Vec3 wi = frame.to_local(-photon.direction);
     const double cosine = -photon.direction.dot(photon.point.normal);
     const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
-    const double across = std::hypot(wi.x(), wi.y());
+    const double across = std::sqrt(wi.x() * wi.x() + wi.y() * wi.y());
     const double stretch = across > 0.0 ? sine / across : 0.0;
     return {wi.x() * stretch, wi.y() * stretch, cosine};
 }

@@ -24,7 +24,7 @@ struct Settings {
     std::optional<double> sensor_accuracy;  ///< relative standard error of each sensor to stop at
     std::optional<double> time_limit_s;     ///< wall time
     std::optional<std::uint32_t> max_phases;
-    std::optional<std::uint32_t> forward_rays;  ///< per phase and map; default: as backward rays
+    std::optional<std::uint32_t> forward_rays;  ///< per phase and map; default: see simulate.cpp
     int samples_per_pixel = 1;                  ///< backward rays per pixel and phase
     int spectral_bins = 0;                      ///< bins of the spectral image; 0: none
     PlantedError planted_error = PlantedError::none;  ///< for tests only

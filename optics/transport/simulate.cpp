@@ -23,6 +23,10 @@ constexpr std::uint32_t rays_per_block = 256;
 constexpr std::uint32_t blocks_per_chunk = 64;  // deposits of a chunk are held at once
 constexpr std::uint32_t pilot_rays = 1 << 14;
 constexpr std::uint32_t min_forward_rays = 20000;
+// Secondary forward rays per backward ray: their noise is averaged over all second scattering
+// events that a kernel serves, so that few are enough (the same delta with 1 and with 1/4 in
+// diffuse rooms).
+constexpr std::uint64_t backward_per_secondary_ray = 4;
 // Expected photons in a kernel of the first phase: few where the kernel is hidden behind a
 // scattering event, more where it is seen.
 constexpr double photons_per_hidden_kernel = 8.0;
@@ -44,11 +48,13 @@ public:
         : settings_(settings),
           stage_(parts),
           threads_(settings.threads > 0 ? settings.threads : hardware_threads()),
-          planes_(parts, stage_.caster().scene_radius_m() / 20.0),
+          planes_(stage_.parts(), stage_.caster().scene_radius_m() / 20.0),
           readings_(parts, settings),
           collection_(Collection::of(settings.method, settings.planted_error)),
-          forward_rays_(settings.forward_rays.value_or(static_cast<std::uint32_t>(
-              std::max<std::uint64_t>(min_forward_rays, readings_.samples_per_phase())))),
+          caustic_rays_(
+              settings.forward_rays.value_or(at_least_min(readings_.samples_per_phase()))),
+          secondary_rays_(settings.forward_rays.value_or(
+              at_least_min(readings_.samples_per_phase() / backward_per_secondary_ray))),
           total_(stage_.parts()),
           received_(2 * parts.receivers.size()) {
         pilot();
@@ -67,14 +73,14 @@ public:
             ForwardTally caustic_tally(stage_.parts());
             const Reach reach = stores_all ? Reach::whole_path : Reach::first_scattering;
             std::vector<Photon> photons =
-                trace_photons(phase, RandomPurpose::caustic, reach, forward_rays_, caustic_tally);
+                trace_photons(phase, RandomPurpose::caustic, reach, caustic_rays_, caustic_tally);
             counts_.caustic_s += watch.seconds();
-            counts_.caustic_rays += forward_rays_;
+            counts_.caustic_rays += caustic_rays_;
             counts_.forward_photons += photons.size();
             counts_.forward_segments += caustic_tally.segments;
             if (stores_all) tally = caustic_tally;
             Stopwatch map_watch;
-            forward_map = ForwardMap(stage_, seen_radii, std::move(photons), forward_rays_);
+            forward_map = ForwardMap(stage_, seen_radii, std::move(photons), caustic_rays_);
             counts_.maps_s += map_watch.seconds();
             forward_map_bytes = std::max<std::uint64_t>(forward_map_bytes, forward_map.bytes());
         }
@@ -104,7 +110,7 @@ public:
             trace_and_deposit(phase, backward_map, tally);
             for_each_block(blocks.size(), threads_, [&](std::size_t i) {
                 backward_map.read(
-                    i, forward_rays_,
+                    i, secondary_rays_,
                     [&](std::uint32_t bin, const Lanes& radiance, const Lanes& inner) {
                         readings_.add(phase, bin, radiance);
                         readings_.add_bias(bin, 2.0 * phase.luminous(radiance - inner));
@@ -143,7 +149,7 @@ public:
         result.backward_map_bytes = backward_map_bytes;
         result.image_bytes = readings_.bytes();
         result.settings = settings_;
-        result.settings.forward_rays = forward_rays_;
+        result.settings.forward_rays = secondary_rays_;
         result.settings.threads = threads_;
         result.phases = phases_;
         add_warnings(result);
@@ -155,8 +161,16 @@ public:
     const SceneParts& parts() const { return stage_.parts(); }
 
 private:
+    static std::uint32_t at_least_min(std::uint64_t rays) {
+        return static_cast<std::uint32_t>(std::max<std::uint64_t>(min_forward_rays, rays));
+    }
     static constexpr std::uint8_t mask(History history) {
         return static_cast<std::uint8_t>(history);
+    }
+
+    // Rays of the trace from which flux balance and receivers are taken.
+    double balance_rays() const {
+        return collection_.first_gather & mask(History::indirect) ? caustic_rays_ : secondary_rays_;
     }
 
     bool needs_forward_map() const {
@@ -166,9 +180,9 @@ private:
     // Radii from a few rays of an extra phase whose results are not used (DESIGN decision 1).
     void pilot() {
         const Phase phase(stage_, settings_.seed, std::numeric_limits<std::uint32_t>::max());
-        const double scale = static_cast<double>(forward_rays_) / pilot_rays;
         ForwardTally unused(stage_.parts());
-        const auto radii = [&](Reach reach, double photons_per_kernel) {
+        const auto radii = [&](Reach reach, std::uint32_t rays, double photons_per_kernel) {
+            const double scale = static_cast<double>(rays) / pilot_rays;
             const auto photons =
                 trace_photons(phase, RandomPurpose::pilot, reach, pilot_rays, unused);
             return pilot_radii(stage_, photons, photons_per_kernel, scale, planes_.count(),
@@ -177,8 +191,8 @@ private:
         seen_radii_ =
             radii(collection_.first_gather & mask(History::indirect) ? Reach::whole_path
                                                                      : Reach::first_scattering,
-                  photons_per_seen_kernel);
-        hidden_radii_ = radii(Reach::whole_path, photons_per_hidden_kernel);
+                  caustic_rays_, photons_per_seen_kernel);
+        hidden_radii_ = radii(Reach::whole_path, secondary_rays_, photons_per_hidden_kernel);
     }
 
     // Photons of all rays of a trace, in the order of the rays. Those of a trace to the first
@@ -211,7 +225,7 @@ private:
 
     void trace_and_deposit(const Phase& phase, BackwardMap& map, ForwardTally& tally) {
         // Path tracing needs forward rays for the receivers and the flux balance only.
-        const std::uint32_t rays = forward_rays_;
+        const std::uint32_t rays = secondary_rays_;
         const std::uint32_t blocks = (rays + rays_per_block - 1) / rays_per_block;
         for (std::uint32_t chunk = 0; chunk < blocks; chunk += blocks_per_chunk) {
             const std::uint32_t count = std::min(blocks_per_chunk, blocks - chunk);
@@ -243,7 +257,7 @@ private:
     }
 
     void fold_tally(const ForwardTally& tally) {
-        const double rays = forward_rays_;
+        const double rays = balance_rays();
         for (std::size_t i = 0; i < stage_.parts().receivers.size(); ++i) {
             const ObjectId object = stage_.parts().receivers[i].object;
             received_[2 * i].add(tally.received_front[object] / rays);
@@ -254,7 +268,7 @@ private:
 
     FluxBalance balance() const {
         const SceneParts& parts = stage_.parts();
-        const double scale = 1.0 / (static_cast<double>(forward_rays_) * std::max(1u, phases_));
+        const double scale = 1.0 / (balance_rays() * std::max(1u, phases_));
         FluxBalance balance;
         balance.emitted = total_.emitted * scale;
         balance.escaped = total_.escaped * scale;
@@ -295,7 +309,7 @@ private:
     SensorPlanes planes_;
     Readings readings_;
     Collection collection_;
-    std::uint32_t forward_rays_;
+    std::uint32_t caustic_rays_, secondary_rays_;     // per phase
     std::optional<Radii> seen_radii_, hidden_radii_;  // of the first phase
     ForwardTally total_;                              // over phases
     std::vector<Estimate> received_;                  // per receiver: front, back

@@ -109,6 +109,12 @@ Stage::Stage(const SceneParts& parts)
             }
         }
     }
+    // A point stated on a surface is on its front side, whatever the rounding of both.
+    for (Observer& observer : parts_.observers) {
+        if (auto* points = std::get_if<IlluminancePoints>(&observer)) {
+            for (Vec3& position : points->positions) position += nudge_m() * points->normal;
+        }
+    }
     // Where solids overlap, the surface of the weaker one inside the stronger does not act.
     has_null_surfaces_ = has_null_surfaces_ || solids_.size() > 1;
 }

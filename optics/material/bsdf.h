@@ -89,6 +89,7 @@ struct SurfaceOptics {
     Lanes index_below;        ///< and on the side of -z
     bool dispersive = false;  ///< an index differs between the lanes
     bool hero_only = false;   ///< only the hero lane of this path still counts
+    int hero = 0;             ///< the path's hero lane
 };
 
 /// One sampled event.

@@ -13,7 +13,7 @@ struct EventNumbers {
 
 /// Mean over the lanes that still count: all, or the hero's alone.
 inline double live_mean(const Lanes& value, const SurfaceOptics& at) {
-    return static_cast<double>(at.hero_only ? value[at.wavelengths.hero] : value.mean());
+    return static_cast<double>(at.hero_only ? value[at.hero] : value.mean());
 }
 
 inline Vec3 z_axis(double sign) {

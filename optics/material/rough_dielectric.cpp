@@ -78,7 +78,7 @@ public:
           index_wo_(flip_ ? at.index_below : at.index_above),
           index_wi_(flip_ ? at.index_above : at.index_below),
           each_lane_(at.dispersive && !at.hero_only),
-          hero_(at.wavelengths.hero) {}
+          hero_(at.hero) {}
 
     Vec3 turned(const Vec3& v) const { return flip_ ? Vec3(v.x(), v.y(), -v.z()) : v; }
 

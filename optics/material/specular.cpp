@@ -37,7 +37,7 @@ std::optional<BsdfSample> sample(const SmoothDielectric&, const SurfaceOptics& a
     const bool above = wo.z() >= 0.0;
     const Lanes& index_wo = above ? at.index_above : at.index_below;
     const Lanes& index_wi = above ? at.index_below : at.index_above;
-    const int hero = at.wavelengths.hero;
+    const int hero = at.hero;
     const double hero_eta =
         static_cast<double>(index_wi[hero]) / static_cast<double>(index_wo[hero]);
     const double cos_o = std::abs(wo.z());

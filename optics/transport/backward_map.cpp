@@ -96,13 +96,12 @@ std::uint64_t BackwardMap::apply(std::size_t part, std::span<const Deposits> blo
         for (const auto& [index, number] : block.by_part[part]) {
             const BackwardPhoton& backward = photons_[index];
             const Photon& photon = block.photons[number];
-            const SurfaceOptics optics = optics_at(*phase_, backward.medium_above,
-                                                   backward.medium_below, backward.hero_only);
+            const SurfaceOptics optics =
+                optics_at(*phase_, backward.medium_above, backward.medium_below, backward.hero_only,
+                          phase_->wavelengths.hero);
             const Vec3 wi = kernel_direction(bsdf_frame(*phase_, backward.point), photon);
             Lanes f = evaluate(phase_->stage.parts().bsdfs[backward.bsdf], optics, backward.wo, wi,
                                Transport::radiance);
-            // The hero lane's factor lane_count must not enter by both sub-paths.
-            if (photon.hero_only && backward.hero_only) f /= spectral::lane_count;
             f *= photon.flux;
             sums_[index].radiance += f;
             const std::uint32_t patch = kernel_patch(phase_->stage, backward.point);

@@ -36,6 +36,7 @@ public:
                  .media = {},
                  .weight = Lanes::Constant(1.0f / static_cast<float>(bins.samples_per_bin)),
                  .hero_only = false,
+                 .hero = phase_.wavelengths.hero,
                  .lossless_events = 0};
         if (!leave_observer(bins.observer, bin, random)) return;
         while (next_event(random)) {
@@ -73,7 +74,7 @@ private:
         const Frame frame(points.normal);
         const Vec3 wo = Vec3::UnitZ();
         const Bsdf& diffuser = phase_.stage.parts().bsdfs[phase_.stage.white_diffuser()];
-        const SurfaceOptics optics = optics_at(phase_, no_object, no_object, false);
+        const SurfaceOptics optics = optics_at(phase_, no_object, no_object, false, 0);
         const GatherPoint at{point, frame, wo, diffuser, optics};
         path_.media = phase_.stage.media_at(position);
         path_.weight *= static_cast<float>(pi);
@@ -104,8 +105,8 @@ private:
         if (collected && collection_.second_deposit == 0) return false;
 
         const Bsdf& bsdf = stage.parts().bsdfs[encounter->bsdf];
-        const SurfaceOptics optics =
-            optics_at(phase_, encounter->medium_above, encounter->medium_below, path_.hero_only);
+        const SurfaceOptics optics = optics_at(
+            phase_, encounter->medium_above, encounter->medium_below, path_.hero_only, path_.hero);
         if (stage.scatters(encounter->bsdf)) {
             if (collected) {
                 store(*encounter, collection_.second_deposit);
@@ -127,11 +128,11 @@ private:
         } else {
             scattered_at(encounter->point.position, sampled->pdf_solid_angle);
         }
-        float factor = live_max(phase_, path_.hero_only, factors);
+        float factor = live_max(path_, factors);
         if (turned_hero) factor /= spectral::lane_count;
         if (sampled->wi.z() * encounter->wo.z() < 0.0) {
             // Radiance changes with n^2 and back again; that is no reason to end or to keep a path.
-            const int hero = phase_.wavelengths.hero;
+            const int hero = path_.hero;
             const float ratio = encounter->wo.z() > 0.0
                                     ? optics.index_below[hero] / optics.index_above[hero]
                                     : optics.index_above[hero] / optics.index_below[hero];

@@ -23,6 +23,7 @@ std::optional<Lanes> line_of_sight(const Phase& phase, const Vec3& from,
               .media = std::move(media),
               .weight = Lanes::Ones(),
               .hero_only = false,
+              .hero = phase.wavelengths.hero,
               .lossless_events = 0};
     while (true) {
         ++shadow_segments;

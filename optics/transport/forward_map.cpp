@@ -60,8 +60,6 @@ Gathered ForwardMap::gather(const Phase& phase, const Radii& radii, const Gather
                     found = true;
                     const Vec3 wi = kernel_direction(at.frame, photon);
                     Lanes f = evaluate(at.bsdf, at.optics, at.wo, wi, Transport::radiance);
-                    // The hero lane's factor lane_count must not enter by both sub-paths.
-                    if (photon.hero_only && at.optics.hero_only) f /= spectral::lane_count;
                     sum.radiance += f * photon.flux;
                     if (in_kernel(stage, at.point, photon.point, inner_m)) {
                         sum.radiance_inner += f * photon.flux;

@@ -10,6 +10,26 @@ void add(std::vector<double>& sum, const std::vector<double>& part) {
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += part[i];
 }
 
+// Each forward path has a hero lane of its own, so that the light behind dispersive boundaries is
+// sampled at all wavelengths within a phase. Half of the paths have the phase's hero, the lane of
+// all backward paths: only these meet a backward path that went through a dispersive boundary
+// itself. Given the phase, the flux of each lane is unbiased.
+constexpr double share_of_phase_hero = 0.5;
+
+double hero_probability(const Phase& phase, int lane) {
+    constexpr int others = spectral::lane_count - 1;
+    return lane == phase.wavelengths.hero ? share_of_phase_hero
+                                          : (1.0 - share_of_phase_hero) / others;
+}
+
+int choose_hero(const Phase& phase, double u) {
+    constexpr int others = spectral::lane_count - 1;
+    if (u < share_of_phase_hero) return phase.wavelengths.hero;
+    const double rest = (u - share_of_phase_hero) / (1.0 - share_of_phase_hero);
+    const int step = 1 + static_cast<int>(rest * others);
+    return (phase.wavelengths.hero + std::min(step, others)) % spectral::lane_count;
+}
+
 Path emitted_path(const Phase& phase, RandomStream& random) {
     const Stage& stage = phase.stage;
     const std::size_t chosen = stage.light_choice().sample(random.uniform());
@@ -25,6 +45,7 @@ Path emitted_path(const Phase& phase, RandomStream& random) {
             .media = stage.media_at(emitted.ray.origin + stage.nudge_m() * emitted.ray.direction),
             .weight = phase.spectra[light.flux_w_per_nm] * static_cast<float>(scale),
             .hero_only = false,
+            .hero = choose_hero(phase, random.uniform()),
             .lossless_events = 0};
 }
 
@@ -65,7 +86,7 @@ void trace_forward(const Phase& phase, RandomPurpose purpose, std::uint32_t inde
             planes->crossings(path.ray, length_m, [&](const SurfacePoint& point) {
                 const double way_m = (point.position - path.ray.origin).norm();
                 arrive({point, path.ray.direction, path.weight * phase.transmittance(medium, way_m),
-                        history, path.hero_only});
+                        history});
             });
         }
         if (!encounter) {
@@ -79,7 +100,7 @@ void trace_forward(const Phase& phase, RandomPurpose purpose, std::uint32_t inde
             const double left_lm = phase.luminous(path.weight);
             tally.absorbed_by_solid[solid] += flux_lm - left_lm;
             flux_lm = left_lm;
-            factor = live_max(phase, path.hero_only, encounter->transmittance);
+            factor = live_max(path, encounter->transmittance);
         }
         const ObjectId object = encounter->point.object;
         (encounter->wo.z() > 0.0 ? tally.received_front : tally.received_back)[object] += flux_lm;
@@ -92,11 +113,11 @@ void trace_forward(const Phase& phase, RandomPurpose purpose, std::uint32_t inde
             continue;
         }
         if (stage.scatters(encounter->bsdf)) {
-            arrive({encounter->point, path.ray.direction, path.weight, history, path.hero_only});
+            arrive({encounter->point, path.ray.direction, path.weight, history});
             // A surface with both kinds of lobes lets the path go on by the specular one.
         }
-        const SurfaceOptics at =
-            optics_at(phase, encounter->medium_above, encounter->medium_below, path.hero_only);
+        const SurfaceOptics at = optics_at(phase, encounter->medium_above, encounter->medium_below,
+                                           path.hero_only, path.hero);
         const double u_lobe = random.uniform();
         const double u1 = random.uniform();
         const double u2 = random.uniform();
@@ -108,8 +129,13 @@ void trace_forward(const Phase& phase, RandomPurpose purpose, std::uint32_t inde
         }
         const bool turned_hero = sampled->hero_only && !path.hero_only;
         follow(path, *encounter, *sampled);
-        factor *= turned_hero ? sampled->weight[phase.wavelengths.hero] / spectral::lane_count
-                              : live_max(phase, path.hero_only, sampled->weight);
+        // The sample counts on a hero chosen with probability 1 / lane_count.
+        if (turned_hero) {
+            path.weight /=
+                static_cast<float>(spectral::lane_count * hero_probability(phase, path.hero));
+        }
+        factor *= turned_hero ? sampled->weight[path.hero] / spectral::lane_count
+                              : live_max(path, sampled->weight);
         const double scattered_lm = phase.luminous(path.weight);
         if (!std::isfinite(scattered_lm)) {
             tally.numerical += flux_lm;

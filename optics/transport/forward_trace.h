@@ -23,7 +23,6 @@ struct Photon {
     Vec3 direction;  ///< unit, along the flight of the light
     Lanes flux;      ///< [W/nm] when divided by the number of rays of the trace
     History history;
-    bool hero_only;
 };
 
 /// Counts of a block of forward rays. All fluxes in lm, not yet divided by the number of rays.

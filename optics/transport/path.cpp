@@ -49,14 +49,15 @@ std::optional<Encounter> next_encounter(const Phase& phase, const Path& path) {
 }
 
 SurfaceOptics optics_at(const Phase& phase, ObjectId medium_above, ObjectId medium_below,
-                        bool hero_only) {
+                        bool hero_only, int hero) {
     return {.bsdfs = phase.stage.parts().bsdfs,
             .spectra = phase.spectra,
             .wavelengths = phase.wavelengths,
             .index_above = phase.index(medium_above),
             .index_below = phase.index(medium_below),
             .dispersive = phase.dispersive(medium_above) || phase.dispersive(medium_below),
-            .hero_only = hero_only};
+            .hero_only = hero_only,
+            .hero = hero};
 }
 
 void pass(Path& path, const Encounter& encounter) {

@@ -14,6 +14,7 @@ struct Path {
     MediumStack media;       ///< the solids that hold the current segment
     Lanes weight;            ///< forward: spectral flux [W/nm]; backward: throughput
     bool hero_only = false;  ///< behind a dispersive refraction only the hero lane counts
+    int hero = 0;            ///< that lane
     std::uint32_t lossless_events = 0;  ///< in a row
 };
 
@@ -37,7 +38,7 @@ Frame bsdf_frame(const Phase& phase, const SurfacePoint& point);
 
 /// What the BSDF at an encounter needs to know.
 SurfaceOptics optics_at(const Phase& phase, ObjectId medium_above, ObjectId medium_below,
-                        bool hero_only);
+                        bool hero_only, int hero);
 
 /// Crosses a surface that does not act on light.
 void pass(Path& path, const Encounter& encounter);
@@ -46,8 +47,8 @@ void pass(Path& path, const Encounter& encounter);
 void follow(Path& path, const Encounter& encounter, const BsdfSample& sample);
 
 /// Largest of the lanes that still count on the path.
-inline float live_max(const Phase& phase, bool hero_only, const Lanes& lanes) {
-    return hero_only ? lanes[phase.wavelengths.hero] : lanes.maxCoeff();
+inline float live_max(const Path& path, const Lanes& lanes) {
+    return path.hero_only ? lanes[path.hero] : lanes.maxCoeff();
 }
 
 /// Whether a path goes on after an event. Unbiased but for `trapped`, which is reported.

@@ -46,7 +46,8 @@ struct Surface {
     }
     const Bsdf& bsdf() const { return bsdfs.back(); }
     optics::SurfaceOptics at() const {
-        return {bsdfs, spectra, wavelengths, index_above, index_below, dispersive, hero_only};
+        return {bsdfs, spectra, wavelengths, index_above, index_below, dispersive, hero_only,
+                wavelengths.hero};
     }
 };
 

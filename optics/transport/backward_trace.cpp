@@ -79,7 +79,7 @@ private:
         path_.media = phase_.stage.media_at(position);
         path_.weight *= static_cast<float>(pi);
         readings_.add(phase_, bin_,
-                      path_.weight * light_sample(phase_, at, nullptr, path_.media, path_.media,
+                      path_.weight * direct_light(phase_, at, nullptr, path_.media, path_.media,
                                                   random, tally_.shadow_segments));
         gather(at, collection_.sensor_gather);
         const Vec3 wi = sample_cosine_hemisphere(u1, u2);
@@ -169,7 +169,7 @@ private:
         const GatherPoint at{encounter.point, encounter.frame, encounter.wo, bsdf, optics};
         const bool above = encounter.wo.z() > 0.0;
         readings_.add(phase_, bin_,
-                      path_.weight * light_sample(phase_, at, &encounter.point,
+                      path_.weight * direct_light(phase_, at, &encounter.point,
                                                   above ? path_.media : encounter.media_beyond,
                                                   above ? encounter.media_beyond : path_.media,
                                                   random, tally_.shadow_segments));

@@ -1,7 +1,21 @@
 #include "optics/transport/direct_light.h"
 
+#include <algorithm>
+#include <array>
+
 namespace lucerna::optics {
 namespace {
+
+// All lights are drawn once each if they are few; of many, this number by their flux.
+constexpr std::size_t max_light_draws = 8;
+// A light that brings less than this share of the unshadowed sum gets its shadow ray by roulette.
+constexpr double roulette_share = 0.1;
+
+// Expected number of samples of a light per call of direct_light().
+double expected_samples(const Stage& stage, std::size_t light) {
+    if (stage.parts().lights.size() <= max_light_draws) return 1.0;
+    return static_cast<double>(max_light_draws) * stage.light_choice().probability(light);
+}
 
 // Internal transmittance of the straight line between two points; nothing if it is blocked.
 std::optional<Lanes> line_of_sight(const Phase& phase, const Vec3& from,
@@ -56,38 +70,64 @@ Lanes emitted_radiance(const Phase& phase, std::uint32_t light, const SurfacePoi
 
 double emission_weight(const Phase& phase, std::uint32_t light, const Vec3& x,
                        const SurfacePoint& emitter, double pdf_solid_angle) {
-    const Stage& stage = phase.stage;
     const double by_light =
-        stage.light_choice().probability(light) *
-        illuminate_pdf_solid_angle(stage.parts().lights[light].source, x, emitter);
+        expected_samples(phase.stage, light) *
+        illuminate_pdf_solid_angle(phase.stage.parts().lights[light].source, x, emitter);
     return balance_weight(pdf_solid_angle, by_light);
 }
 
-Lanes light_sample(const Phase& phase, const GatherPoint& at, const SurfacePoint* surface,
+Lanes direct_light(const Phase& phase, const GatherPoint& at, const SurfacePoint* surface,
                    const MediumStack& media_above, const MediumStack& media_below,
                    RandomStream& random, std::uint64_t& shadow_segments) {
     const Stage& stage = phase.stage;
-    const std::size_t chosen = stage.light_choice().sample(random.uniform());
-    const double u1 = random.uniform();
-    const double u2 = random.uniform();
-    const Light& light = stage.parts().lights[chosen];
-    const auto sampled = illuminate(light.source, at.point.position, u1, u2);
-    if (!sampled || !(sampled->factor > 0.0)) return Lanes::Zero();
-
-    const Vec3 wi = at.frame.to_local(sampled->direction);
-    const Lanes f = evaluate(at.bsdf, at.optics, at.wo, wi, Transport::radiance);
-    if (!(f.maxCoeff() > 0.0f)) return Lanes::Zero();
-    const auto seen = line_of_sight(phase, at.point.position, surface, *sampled,
-                                    wi.z() > 0.0 ? media_above : media_below, shadow_segments);
-    if (!seen) return Lanes::Zero();
-
-    const double probability = stage.light_choice().probability(chosen);
-    const double by_bsdf =
-        sampled->delta ? 0.0 : pdf_solid_angle(at.bsdf, at.optics, at.wo, wi, Transport::radiance);
-    const double weight =
-        sampled->delta ? 1.0 : balance_weight(probability * sampled->pdf_solid_angle, by_bsdf);
-    return f * *seen * phase.spectra[light.flux_w_per_nm] *
-           static_cast<float>(std::abs(wi.z()) * sampled->factor * weight / probability);
+    const std::size_t lights = stage.parts().lights.size();
+    const std::size_t draws = std::min(lights, max_light_draws);
+    // What each drawn light would bring if nothing stood in its way.
+    struct Candidate {
+        Illumination light;
+        Lanes radiance;
+        double luminance;
+        bool above;
+    };
+    std::array<std::optional<Candidate>, max_light_draws> candidates;
+    double total = 0.0;
+    for (std::size_t draw = 0; draw < draws; ++draw) {
+        const std::size_t chosen =
+            lights <= max_light_draws ? draw : stage.light_choice().sample(random.uniform());
+        const double u1 = random.uniform();
+        const double u2 = random.uniform();
+        const Light& light = stage.parts().lights[chosen];
+        const auto sampled = illuminate(light.source, at.point.position, u1, u2);
+        if (!sampled || !(sampled->factor > 0.0)) continue;
+        const Vec3 wi = at.frame.to_local(sampled->direction);
+        const Lanes f = evaluate(at.bsdf, at.optics, at.wo, wi, Transport::radiance);
+        if (!(f.maxCoeff() > 0.0f)) continue;
+        const double expected = expected_samples(stage, chosen);
+        const double by_bsdf =
+            sampled->delta ? 0.0
+                           : pdf_solid_angle(at.bsdf, at.optics, at.wo, wi, Transport::radiance);
+        const double weight =
+            sampled->delta ? 1.0 : balance_weight(expected * sampled->pdf_solid_angle, by_bsdf);
+        const Lanes radiance =
+            f * phase.spectra[light.flux_w_per_nm] *
+            static_cast<float>(std::abs(wi.z()) * sampled->factor * weight / expected);
+        candidates[draw] = {*sampled, radiance, phase.luminous(radiance), wi.z() > 0.0};
+        total += candidates[draw]->luminance;
+    }
+    Lanes sum = Lanes::Zero();
+    for (std::size_t draw = 0; draw < draws; ++draw) {
+        if (!candidates[draw]) continue;
+        const Candidate& candidate = *candidates[draw];
+        // Shadow rays for what matters; the rest by roulette.
+        const double tested =
+            total > 0.0 ? std::min(1.0, candidate.luminance / (roulette_share * total)) : 1.0;
+        if (random.uniform() >= tested) continue;
+        const auto seen =
+            line_of_sight(phase, at.point.position, surface, candidate.light,
+                          candidate.above ? media_above : media_below, shadow_segments);
+        if (seen) sum += candidate.radiance * *seen / static_cast<float>(tested);
+    }
+    return sum;
 }
 
 }  // namespace lucerna::optics

@@ -10,11 +10,11 @@ inline double balance_weight(double own, double other) {
     return own > 0.0 ? own / (own + other) : 0.0;
 }
 
-/// Radiance scattered toward wo from one sampled point of one light, weighed against sampling the
-/// BSDF. Unbiased together with emission_weight().
+/// Radiance scattered toward wo from sampled points of the lights, weighed against sampling the
+/// BSDF (multi-sample balance heuristic). Unbiased together with emission_weight().
+/// @param surface  where the shadow rays leave; nullptr for a point in free space.
 /// @param media_above, media_below  solids that hold the space on both sides of the surface.
-/// @param point_surface  nullptr for a point in free space.
-Lanes light_sample(const Phase& phase, const GatherPoint& at, const SurfacePoint* surface,
+Lanes direct_light(const Phase& phase, const GatherPoint& at, const SurfacePoint* surface,
                    const MediumStack& media_above, const MediumStack& media_below,
                    RandomStream& random, std::uint64_t& shadow_segments);
 

@@ -178,11 +178,13 @@ std::vector<Image> Readings::images(const SceneParts& parts) const {
             image.z.push_back(static_cast<float>(z_sum_[bins.first_bin + bin] / phases));
             variance += estimate.standard_error() * estimate.standard_error();
             square += estimate.mean() * estimate.mean();
-            bias += estimate.bias() * estimate.bias();
+            // Its own noise would otherwise pass for bias.
+            const double noise = estimate.bias_standard_error();
+            bias += estimate.bias() * estimate.bias() - noise * noise;
         }
         if (square > 0.0) {
             image.delta = std::sqrt(variance / square);
-            image.delta_bias = std::sqrt(bias / square);
+            image.delta_bias = std::sqrt(std::max(0.0, bias) / square);
         }
         if (spectral_bins_ > 0) {
             constexpr double range_nm = spectral::max_wavelength_nm - spectral::min_wavelength_nm;

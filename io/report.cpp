@@ -58,7 +58,11 @@ Json image_json(const optics::Image& image, Numbers& number) {
             {"width", image.width},
             {"height", image.height},
             {"delta", number(image.delta, image.name + " delta")},
-            {"delta_bias", number(image.delta_bias, image.name + " delta_bias")}};
+            {"delta_bias", number(image.delta_bias, image.name + " delta_bias")},
+            {"mean_luminance", number(image.mean.mean(), image.name + " mean_luminance")},
+            {"mean_luminance_expanded_uncertainty",
+             number(image.mean.expanded_uncertainty(report_coverage),
+                    image.name + " mean_luminance_expanded_uncertainty")}};
 }
 
 Json quantity_json(const optics::Quantity& quantity, Numbers& number) {

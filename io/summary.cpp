@@ -39,9 +39,10 @@ std::string table(const std::vector<std::vector<std::string>>& rows) {
 std::string images_text(const optics::Result& result) {
     std::string text;
     for (const auto& image : result.images) {
-        text += fmt::format("Image {}: {} x {} pixels, noise δ = {:.2g} %, kernel bias {:.2g} %\n",
-                            image.name, image.width, image.height, 100.0 * image.delta,
-                            100.0 * image.delta_bias);
+        text += fmt::format(
+            "Image {}: {} x {} pixels, noise δ = {:.2g} %, kernel bias {:.2g} %, mean {} cd/m2\n",
+            image.name, image.width, image.height, 100.0 * image.delta, 100.0 * image.delta_bias,
+            measured_value(image.mean.mean(), image.mean.expanded_uncertainty(report_coverage)));
     }
     return text;
 }
@@ -104,8 +105,10 @@ std::string flux_text(const optics::FluxBalance& flux) {
 
 std::string work_text(const optics::Result& result) {
     const optics::RayCounts& rays = result.rays;
-    return fmt::format("\nPhases {} in {:.1f} s, stopped by: {}\n", result.phases, result.wall_s,
-                       result.stopped_by) +
+    return fmt::format(
+               "\nPhases {} in {:.1f} s, stopped by: {}{}\n", result.phases, result.wall_s,
+               result.stopped_by,
+               result.accuracy_reached ? "" : ", before the accuracy asked for was reached") +
            fmt::format("Paths from observers {}, from lights {} caustic and {} secondary\n",
                        rays.backward_rays, rays.caustic_rays, rays.secondary_rays) +
            fmt::format("Memory of a phase: forward map {}, backward map {}, images {}\n",

@@ -22,6 +22,7 @@ TEST_CASE("The report holds what the result says", "[unit][report]") {
     CHECK(report["stopped_by"] == "phases");
     CHECK(report["image"]["delta"] == 0.0193);
     CHECK(report["image"]["delta_bias"] == 0.004);
+    CHECK(report["image"]["mean_luminance"] == 962.5);
     CHECK(report["memory"]["backward_map_bytes"] == 35'200'000);
     CHECK(report["warnings"] == json{"a warning"});
 

@@ -33,11 +33,12 @@ TEST_CASE("Sizes are read at a glance", "[unit][summary]") {
 
 TEST_CASE("The summary shows image, quantities, losses and files", "[unit][summary]") {
     const std::string text = summary(example_result(), {{"out/view.png", "white is 300 cd/m2"}});
-    CHECK_THAT(text, Contains("Image view: 24 x 20 pixels, noise δ = 1.9 %"));
+    CHECK_THAT(text, Contains("Image view: 24 x 20 pixels, noise δ = 1.9 %, kernel bias 0.4 %, "
+                              "mean 962.5 ± 1.6 cd/m2"));
     CHECK_THAT(text, Contains("512.3 ± 1.3 lx"));
     CHECK_THAT(text, Contains("x 0.3112  y 0.3322"));
     CHECK_THAT(text, Contains("absorbed by wall"));
-    CHECK_THAT(text, Contains("stopped by: phases"));
+    CHECK_THAT(text, Contains("stopped by: phases\n"));
     CHECK_THAT(text, Contains("35 MB"));
     CHECK_THAT(text, Contains("Warning: a warning"));
     CHECK_THAT(text, Contains("out/view.png  white is 300 cd/m2"));
@@ -60,6 +61,13 @@ TEST_CASE("The shares of the flux close to 100 %", "[unit][summary]") {
     }
     CHECK(emitted == 100.0);
     CHECK_THAT(sum, Catch::Matchers::WithinAbs(100.0, 5 * 0.0005));  // five rows of three decimals
+}
+
+TEST_CASE("The summary says that the accuracy was not reached", "[unit][summary]") {
+    optics::Result result = example_result();
+    result.accuracy_reached = false;
+    CHECK_THAT(summary(result, {}),
+               Contains("stopped by: phases, before the accuracy asked for was reached"));
 }
 
 TEST_CASE("A long list of quantities is cut off with its count", "[unit][summary]") {

@@ -23,7 +23,8 @@ public:
     double standard_error() const;
     double bias() const;
     double bias_standard_error() const;
-    /// Half width U such that mean - bias +/- U ... see the .cpp for the terms; two-sided coverage.
+    /// Half width U of the interval mean +/- U: Student's t times the standard error, plus the
+    /// measured kernel bias as a bound that adds to the noise linearly.
     double expanded_uncertainty(double coverage = 0.95) const;
 
 private:

@@ -17,8 +17,8 @@ inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A half line: `direction` is a unit vector.
 struct Ray {
-    Vec3 origin;
-    Vec3 direction;
+    Vec3 origin = Vec3::Zero();
+    Vec3 direction = Vec3::UnitZ();
 };
 
 /// Right-handed orthonormal frame whose z axis is `normal`.

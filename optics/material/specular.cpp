@@ -58,9 +58,13 @@ std::optional<BsdfSample> sample(const SmoothDielectric&, const SurfaceOptics& a
     // In proportion to what each choice carries: the mean weight is the same for both.
     const double carried = mean_reflectance + hero_transmittance;
     const double p_reflect = mean_reflectance / carried;
-    if (u.lobe < p_reflect) return mirrored(wo, reflectance * static_cast<float>(1.0 / p_reflect));
-
+    if (u.lobe < p_reflect) {
+        BsdfSample event = mirrored(wo, reflectance * static_cast<float>(1.0 / p_reflect));
+        event.probability = p_reflect;
+        return event;
+    }
     BsdfSample event;
+    event.probability = 1.0 - p_reflect;
     event.wi = refract(wo, z_axis(above ? 1.0 : -1.0), hero_eta);
     event.specular = true;
     event.hero_only = splits;

@@ -9,6 +9,9 @@ constexpr std::uint8_t mask(History history) {
 constexpr std::uint8_t all_light =
     mask(History::direct) | mask(History::caustic) | mask(History::indirect);
 
+// A branch that carries less of its path goes on by choosing one event at random.
+constexpr double least_importance_to_branch = 0.02;
+
 /// One backward ray on its way.
 class BackwardRay {
 public:
@@ -38,8 +41,16 @@ public:
                  .hero_only = false,
                  .hero = phase_.wavelengths.hero,
                  .lossless_events = 0};
+        importance_ = 1.0;
         if (!leave_observer(bins.observer, bin, random)) return;
-        while (next_event(random)) {
+        while (true) {
+            while (next_event(random)) {
+            }
+            if (branches_.empty()) return;
+            path_ = branches_.back().path;
+            importance_ = branches_.back().importance;
+            scatterings_ = 0;
+            branches_.pop_back();
         }
     }
 
@@ -114,6 +125,11 @@ private:
                 collect(*encounter, bsdf, optics, random);
             }
         }
+        if (scatterings_ == 0 && importance_ >= least_importance_to_branch &&
+            std::holds_alternative<SmoothDielectric>(bsdf)) {
+            branch(*encounter, bsdf, optics);
+            return true;
+        }
         const double u_lobe = random.uniform();
         const double u1 = random.uniform();
         const double u2 = random.uniform();
@@ -139,6 +155,24 @@ private:
             factor *= ratio * ratio;
         }
         return roulette(path_, factor, random) == Fate::goes_on;
+    }
+
+    // What is seen in and through a smooth boundary is followed both ways, unless it matters
+    // little: a lamp seen by reflection of a few percent would else be a rare bright dot.
+    void branch(const Encounter& encounter, const Bsdf& bsdf, const SurfaceOptics& optics) {
+        const double almost_one = 1.0 - 0x1p-32;
+        const auto one = sample(bsdf, optics, encounter.wo, 0.0, 0.0, 0.0, Transport::radiance);
+        if (one->probability < 1.0) {
+            const auto other =
+                sample(bsdf, optics, encounter.wo, almost_one, 0.0, 0.0, Transport::radiance);
+            Path path = path_;
+            follow(path, encounter, *other);
+            path.weight *= static_cast<float>(other->probability);
+            branches_.push_back({path, importance_ * other->probability});
+        }
+        follow(path_, encounter, *one);
+        path_.weight *= static_cast<float>(one->probability);
+        importance_ *= one->probability;
     }
 
     void scattered_at(const Vec3& position, double pdf) {
@@ -209,6 +243,12 @@ private:
 
     Path path_;
     std::uint32_t bin_ = 0;
+    struct Branch {
+        Path path;
+        double importance;
+    };
+    std::vector<Branch> branches_;  // before the first scattering event, still to be followed
+    double importance_ = 1.0;       // share of the path's weight that its branches left to it
     int scatterings_ = 0;
     bool specular_since_ = false;  // the last scattering event
     Vec3 scattered_from_ = Vec3::Zero();

@@ -124,10 +124,13 @@ public:
     }
 
     double worst_receiver_error() const {
+        // Relative to both sides together: hardly any light on one side is no reason to go on.
         double worst = 0.0;
-        for (const Estimate& estimate : received_) {
-            const double error = estimate.standard_error();
-            if (error > 0.0) worst = std::max(worst, error / estimate.mean());
+        for (std::size_t i = 0; i < received_.size(); i += 2) {
+            const double both = received_[i].mean() + received_[i + 1].mean();
+            const double error =
+                std::max(received_[i].standard_error(), received_[i + 1].standard_error());
+            if (error > 0.0) worst = std::max(worst, error / both);
         }
         return worst;
     }
@@ -292,13 +295,13 @@ private:
     void add_warnings(Result& result) const {
         const FluxBalance& flux = result.flux_balance_lm;
         if (flux.inconsistent_medium > 1e-6 * flux.emitted) {
-            result.warnings.push_back(
+            result.warnings.emplace_back(
                 "light was lost where transparent solids contradict each other: check for solids "
                 "that share a face or are not closed");
         }
-        if (flux.numerical > 0.0) result.warnings.push_back("light was lost to undefined numbers");
+        if (flux.numerical > 0.0) result.warnings.emplace_back("light was lost to undefined numbers");
         if (settings_.method == Method::path && stage_.has_caustics()) {
-            result.warnings.push_back(
+            result.warnings.emplace_back(
                 "path tracing does not see light of points and beams behind specular surfaces");
         }
     }

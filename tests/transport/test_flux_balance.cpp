@@ -37,10 +37,7 @@ TEST_CASE("A long rod loses nothing that is not accounted for", "[analytic]") {
     test::SceneBuilder scene;
     scene.solid("rod", Cylinder{{0, 0, 0}, {0, 0, 1.0}, 0.0005}, scene.medium(1.5));
     const Vec3 direction = Vec3(std::sin(0.7), 0.0, std::cos(0.7));
-    scene.light(
-        "beam",
-        BeamLight{Disk{Vec3(0, 0, -0.001) - 0.001 * direction, direction, 0.0002}, direction},
-        100.0);
+    scene.light("beam", BeamLight{Disk{-0.001 * direction, direction, 0.0002}, direction}, 100.0);
     const ObjectId far_end =
         scene.object("far end", Disk{{0, 0, 1.001}, Vec3::UnitZ(), 1.0}, scene.black());
     scene.receiver(far_end);

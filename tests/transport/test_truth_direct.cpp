@@ -1,0 +1,253 @@
+// Direct light of rectangles and of measured luminaires, and absorption on its way.
+#include "tests/support/truth_checks.h"
+#include "tests/transport/truth/polygon_light.h"
+#include "tests/transport/truth/quadrature.h"
+
+using namespace lucerna;
+using namespace lucerna::optics;
+using test::SceneBuilder;
+using test::truth::polygon_illuminance;
+
+namespace {
+
+const double rad_per_deg = pi / 180.0;
+
+// -- A luminaire with an asymmetric distribution, tilted and turned ------------------------------
+
+const std::vector<double> c_deg{0, 60, 135, 180, 240, 300, 360};
+const std::vector<double> gamma_deg{0, 20, 45, 70, 90, 120};
+const std::vector<std::vector<double>> table_cd{
+    {300, 420, 250, 90, 30, 0}, {300, 380, 310, 150, 60, 0}, {300, 200, 150, 120, 20, 0},
+    {300, 150, 80, 60, 10, 0},  {300, 260, 190, 30, 5, 0},   {300, 510, 440, 210, 90, 0},
+    {300, 420, 250, 90, 30, 0}};
+
+double between(const std::vector<double>& grid, const std::vector<double>& values, double at) {
+    for (std::size_t i = 1; i < grid.size(); ++i) {
+        if (at > grid[i]) continue;
+        const double t = (at - grid[i - 1]) / (grid[i] - grid[i - 1]);
+        return values[i - 1] + t * (values[i] - values[i - 1]);
+    }
+    return 0.0;
+}
+
+// I(C, gamma) [cd], bilinear in the angles.
+double intensity_cd(double c, double gamma) {
+    std::vector<double> of_planes;
+    for (const auto& plane : table_cd) of_planes.push_back(between(gamma_deg, plane, gamma));
+    return between(c_deg, of_planes, c);
+}
+
+// Axes of the luminaire in the scene: C = 0, C = 90 and up (against gamma = 0).
+struct Axes {
+    Vec3 c0, c90, up;
+};
+
+Axes axes() {
+    // Turned by 25 deg about the vertical, then its C = 0 side lifted by 15 deg.
+    const double turn = 25 * rad_per_deg;
+    const double lift = 15 * rad_per_deg;
+    const Vec3 c90(-std::sin(turn), std::cos(turn), 0.0);
+    const Vec3 level(std::cos(turn), std::sin(turn), 0.0);
+    return {std::cos(lift) * level + std::sin(lift) * Vec3::UnitZ(), c90,
+            std::cos(lift) * Vec3::UnitZ() - std::sin(lift) * level};
+}
+
+double intensity_toward(const Vec3& direction) {
+    const Axes a = axes();
+    const double gamma = std::acos(-direction.dot(a.up)) / rad_per_deg;
+    double c = std::atan2(direction.dot(a.c90), direction.dot(a.c0)) / rad_per_deg;
+    if (c < 0.0) c += 360.0;
+    return intensity_cd(c, gamma);
+}
+
+double total_flux_lm() {
+    double flux = 0.0;
+    for (std::size_t i = 1; i < c_deg.size(); ++i) {
+        flux += test::truth::integral(
+            [&](double c) {
+                double of_plane = 0.0;
+                for (std::size_t g = 1; g < gamma_deg.size(); ++g) {
+                    of_plane += test::truth::integral(
+                        [&](double gamma) {
+                            return intensity_cd(c, gamma) * std::sin(gamma * rad_per_deg) *
+                                   rad_per_deg;
+                        },
+                        gamma_deg[g - 1], gamma_deg[g], 1);
+                }
+                return of_plane * rad_per_deg;
+            },
+            c_deg[i - 1], c_deg[i], 1);
+    }
+    return flux;
+}
+
+Luminaire luminaire(const Vec3& position) {
+    Luminaire light;
+    light.position = position;
+    const Axes a = axes();
+    light.to_photometric.row(0) = a.c0.transpose();
+    light.to_photometric.row(1) = a.c90.transpose();
+    light.to_photometric.row(2) = a.up.transpose();
+    light.intensity = std::make_shared<const IntensityDistribution>(c_deg, gamma_deg, table_cd);
+    return light;
+}
+
+const std::vector<Vec3> floor_points{
+    {0.0, 0.0, 0.0}, {1.0, 0.5, 0.0}, {-1.2, 0.3, 0.0}, {0.4, -1.5, 0.0}};
+
+}  // namespace
+
+TEST_CASE("Direct light: a square luminaire by Lambert's formula", "[analytic]") {
+    const auto method = GENERATE(Method::combined, Method::forward, Method::path);
+    const double luminance = 2000.0;
+    const double rho = 0.4;
+    SceneBuilder scene;
+    const Vec3 corner(-0.3, -0.5, 1.5);
+    const Vec3 u(0.0, 1.0, 0.0);
+    const Vec3 v(0.8, 0.0, 0.0);
+    scene.area_light(scene.object("lamp", Rectangle{corner, u, v}, scene.black()), luminance);
+    scene.object("floor", Rectangle{{-5, -5, 0}, {10, 0, 0}, {0, 10, 0}}, scene.diffuse(rho));
+    scene.points(floor_points, Vec3::UnitZ());
+    for (const Vec3& point : floor_points) scene.meter({0.2, 0.2, 1.0}, point, 0.01);
+    const auto polygon = test::truth::corners(corner, u, v);
+    const Result result = test::run(scene, method, {64, 100});
+    INFO("method " << static_cast<int>(method));
+    for (std::size_t i = 0; i < floor_points.size(); ++i) {
+        const double truth =
+            polygon_illuminance(polygon, luminance, floor_points[i], Vec3::UnitZ());
+        test::check_truth(result.quantities[i].estimate, truth);
+        test::check_refutes(result.quantities[i].estimate, 1.02 * truth);
+        test::check_truth(result.quantities[4 + i].estimate, rho / pi * truth);
+        test::check_refutes(result.quantities[4 + i].estimate, rho * truth);
+    }
+}
+
+TEST_CASE("Direct light: a rectangle that is partly behind the horizon", "[analytic]") {
+    const double luminance = 2000.0;
+    SceneBuilder scene;
+    const Vec3 corner(-0.3, -0.5, 1.5);
+    const Vec3 u(0.0, 1.0, 0.0);
+    const Vec3 v(0.8, 0.0, 0.0);
+    scene.area_light(scene.object("lamp", Rectangle{corner, u, v}, scene.black()), luminance);
+    const Vec3 slanted = Vec3(1.0, 0.2, 0.5).normalized();
+    const std::vector<Vec3> positions{{-1.5, 0.2, 0.8}, {0.2, 0.1, 1.1}};
+    scene.points(positions, slanted);
+    const Result result = test::run(scene, Method::combined, {96, 100});
+    const auto polygon = test::truth::corners(corner, u, v);
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        const double truth = polygon_illuminance(polygon, luminance, positions[i], slanted);
+        test::check_truth(result.quantities[i].estimate, truth);
+        test::check_refutes(result.quantities[i].estimate, 1.02 * truth);
+    }
+}
+
+TEST_CASE("Direct light: an asymmetric point luminaire, tilted and turned", "[analytic]") {
+    const Vec3 position(0.1, 0.2, 2.0);
+    const double rho = 0.5;
+    SceneBuilder scene;
+    const ObjectId shell =
+        scene.object("shell", Sphere{position, 10.0}, scene.black());  // takes all light
+    scene.receiver(shell);
+    scene.object("paper", Disk{{1.0, 0.5, 0.0}, Vec3::UnitZ(), 0.1}, scene.diffuse(rho));
+    scene.light("luminaire", luminaire(position), total_flux_lm());
+    scene.points(floor_points, Vec3::UnitZ());
+    scene.meter({0.5, 0.5, 1.0}, {1.0, 0.5, 0.0}, 0.005);
+    const Result result = test::run(scene, Method::combined, {64, 1000});
+    const auto illuminance = [&](const Vec3& x) {
+        const Vec3 way = x - position;
+        const Vec3 direction = way.normalized();
+        return intensity_toward(direction) * -direction.z() / way.squaredNorm();
+    };
+    for (std::size_t i = 0; i < floor_points.size(); ++i) {
+        const double truth = illuminance(floor_points[i]);
+        test::check_truth(result.quantities[i].estimate, truth);
+        test::check_refutes(result.quantities[i].estimate, 1.02 * truth);
+    }
+    test::check_truth(result.quantities[4].estimate, rho / pi * illuminance(floor_points[1]));
+}
+
+TEST_CASE("Direct light: a luminaire with an opening, from nearby", "[analytic]") {
+    // Uniform over the opening: E = integral over it of I(w) / A cos / d^2.
+    const Vec3 position(0.1, 0.2, 1.0);
+    const Axes a = axes();
+    const double length_m = 0.6;
+    const double width_m = 0.4;
+    // The opening's normal points to gamma = 0.
+    const Rectangle opening{position - 0.5 * length_m * a.c0 - 0.5 * width_m * a.c90,
+                            width_m * a.c90, length_m * a.c0};
+    const auto method = GENERATE(Method::combined, Method::path);
+    SceneBuilder scene;
+    const ObjectId object = scene.object("opening", opening, scene.black());
+    Luminaire light = luminaire(position);
+    light.object = object;
+    light.opening = LuminousOpening(opening);
+    scene.light("luminaire", light, total_flux_lm());
+    scene.points(floor_points, Vec3::UnitZ());
+    const Result result = test::run(scene, method, {96, 100});
+    for (std::size_t i = 0; i < floor_points.size(); ++i) {
+        constexpr int steps = 100;
+        double truth = 0.0;
+        for (int s = 0; s < steps; ++s) {
+            for (int t = 0; t < steps; ++t) {
+                const Vec3 from = opening.corner + (s + 0.5) / steps * opening.edge_u +
+                                  (t + 0.5) / steps * opening.edge_v;
+                const Vec3 way = floor_points[i] - from;
+                const Vec3 direction = way.normalized();
+                truth += intensity_toward(direction) * -direction.z() / way.squaredNorm();
+            }
+        }
+        truth /= steps * steps;
+        test::check_truth(result.quantities[i].estimate, truth);
+        test::check_refutes(result.quantities[i].estimate, 1.02 * truth);
+    }
+}
+
+TEST_CASE("Direct light: absorption on a straight way", "[analytic]") {
+    // A slab of index 1 bends nothing: E = E_0 exp(-alpha l). With a boundary that does not act,
+    // shadow rays cross it; with a refracting boundary of equal indices, photons do.
+    const bool acts = GENERATE(false, true);
+    const double absorption_per_m = 2.0;
+    const double thickness_m = 0.2;
+    const double intensity = 100.0;
+    const double beam_rad = 30.0 * rad_per_deg;
+    const double rho = 0.5;
+    SceneBuilder scene;
+    Placement below = Placement::Identity();
+    below.translate(Vec3(-2.0, -2.0, 0.4));
+    const ObjectId slab = scene.solid("slab", Box{below, {4.0, 4.0, thickness_m}},
+                                      scene.medium(1.0, absorption_per_m));
+    if (!acts) scene.parts.objects[slab].front = scene.parts.objects[slab].back = pass_through;
+    scene.object("floor", Rectangle{{-2, -2, 0}, {4, 0, 0}, {0, 4, 0}}, scene.diffuse(rho));
+    // A lamp of uniform intensity within its beam, at (0, 0, 1).
+    Luminaire lamp;
+    lamp.position = Vec3::UnitZ();
+    lamp.to_photometric.setIdentity();
+    lamp.intensity = std::make_shared<const IntensityDistribution>(
+        std::vector{0.0}, std::vector{0.0, beam_rad / rad_per_deg},
+        std::vector<std::vector<double>>{{intensity, intensity}});
+    scene.light("lamp", lamp, intensity * 2.0 * pi * (1.0 - std::cos(beam_rad)));
+    // The camera sees a square within the beam from below the slab.
+    const double half_width_m = 0.3;
+    scene.camera({0.0, 0.0, 0.35}, Vec3::Zero(), Vec3::UnitY(),
+                 2.0 * std::atan(half_width_m / 0.35), 24, 24);
+    const auto mean = [&](double absorption) {
+        const auto luminance = [&](double x, double y) {
+            const double distance_m = std::sqrt(x * x + y * y + 1.0);
+            return rho / pi * intensity / std::pow(distance_m, 3) *
+                   std::exp(-absorption * thickness_m * distance_m);
+        };
+        const double integral = test::truth::integral(
+            [&](double x) {
+                return test::truth::integral([&](double y) { return luminance(x, y); },
+                                             -half_width_m, half_width_m, 1);
+            },
+            -half_width_m, half_width_m, 1);
+        return integral / (4.0 * half_width_m * half_width_m);
+    };
+    const test::Effort effort = acts ? test::Effort{4, 20000} : test::Effort{4, 100};
+    const test::Replicates runs(scene, Method::combined, effort, 16, [](const Result& result) {
+        return std::vector{test::mean_of_image(result.images.front())};
+    });
+    test::check_truth_over_runs(runs[0], mean(absorption_per_m));
+    test::check_refutes_over_runs(runs[0], mean(1.05 * absorption_per_m));
+}

@@ -1,0 +1,259 @@
+// Slabs of glass, clear, absorbing and dispersive, and what a meter reads inside glass.
+//
+// Lucerna averages the reflectance over polarisation at each boundary. These truths do the same;
+// where light meets several boundaries obliquely, polarised light behaves otherwise, and a check
+// here says by how much.
+#include "spectral/observer.h"
+#include "tests/support/truth_checks.h"
+#include "tests/transport/truth/luminance_weights.h"
+#include "tests/transport/truth/quadrature.h"
+#include "tests/transport/truth/slab.h"
+
+using namespace lucerna;
+using namespace lucerna::optics;
+using test::SceneBuilder;
+using test::truth::unpolarised_transmittance;
+
+namespace {
+
+constexpr double luminance = 1000.0;
+constexpr double thickness_m = 0.1;
+constexpr double n = 1.5;
+
+double radians(double degrees) {
+    return degrees * pi / 180.0;
+}
+
+// A slab of 6 m x 6 m from z = 0.1 on above an emitter of uniform luminance at z = 0.
+SceneBuilder slab_over_emitter(SceneBuilder scene, MediumId medium) {
+    scene.area_light(
+        scene.object("emitter", Rectangle{{-5, -5, 0}, {10, 0, 0}, {0, 10, 0}}, scene.black()),
+        luminance);
+    Placement place = Placement::Identity();
+    place.translate(Vec3(-3.0, -3.0, 0.1));
+    scene.solid("slab", Box{place, {6.0, 6.0, thickness_m}}, medium);
+    return scene;
+}
+
+// A meter above the slab that sees its middle under an angle.
+void meter_at(SceneBuilder& scene, double angle_rad) {
+    const Vec3 target(0.0, 0.0, 0.1 + thickness_m);
+    scene.meter(target + Vec3(std::sin(angle_rad), 0.0, std::cos(angle_rad)), target, 0.004);
+}
+
+MediumId dispersive(SceneBuilder& scene, const std::function<double(double)>& index_at) {
+    std::vector<double> wavelengths_nm;
+    std::vector<double> values;
+    for (int nm = 360; nm <= 830; ++nm) {
+        wavelengths_nm.push_back(nm);
+        values.push_back(index_at(nm));
+    }
+    const MediumId id = scene.medium(1.0);
+    scene.parts.spectra[scene.parts.media[id].index] =
+        spectral::Spectrum(wavelengths_nm, values, spectral::Outside::hold);
+    scene.parts.media[id].dispersive = true;
+    return id;
+}
+
+}  // namespace
+
+TEST_CASE("Slab: luminance through clear and absorbing glass", "[analytic]") {
+    const double absorption_per_m = GENERATE(0.0, 4.0);
+    SceneBuilder materials;
+    const MediumId glass = materials.medium(n, absorption_per_m);
+    SceneBuilder scene = slab_over_emitter(std::move(materials), glass);
+    const std::vector<double> angles_deg{0.0, 45.0, 60.0, 75.0};
+    for (const double angle : angles_deg) meter_at(scene, radians(angle));
+    const Result result =
+        test::run(scene, Method::combined, {absorption_per_m > 0.0 ? 140u : 64u, 100});
+    const double depth = absorption_per_m * thickness_m;
+    for (std::size_t i = 0; i < angles_deg.size(); ++i) {
+        const double angle_rad = radians(angles_deg[i]);
+        INFO("absorption " << depth << " angle " << angles_deg[i]);
+        const Estimate& estimate = result.quantities[i].estimate;
+        test::check_truth(estimate, luminance * unpolarised_transmittance(n, angle_rad, depth));
+        const double reflectance = test::truth::boundary(n, angle_rad).mean();
+        // One boundary only; one boundary too many; the n^2 of the inside.
+        const double single =
+            luminance * (1.0 - reflectance) * test::truth::passage(n, angle_rad, depth);
+        test::check_refutes(estimate, single);
+        test::check_refutes(estimate, single / (n * n));
+        if (angles_deg[i] == 75.0) {
+            // No internal reflections; and polarised light, which the engine does not follow.
+            test::check_refutes(estimate, single * (1.0 - reflectance));
+            test::check_refutes(
+                estimate, luminance * test::truth::polarised_transmittance(n, angle_rad, depth));
+        }
+    }
+}
+
+TEST_CASE("Slab: a meter inside glass reads n^2 (1 - R) L", "[analytic]") {
+    SceneBuilder materials;
+    const MediumId glass = materials.medium(n);
+    SceneBuilder scene = slab_over_emitter(std::move(materials), glass);
+    const Vec3 inside(0.0, 0.0, 0.1 + 0.5 * thickness_m);
+    const std::vector<double> angles_rad{0.0, std::asin(std::sin(radians(60.0)) / n)};
+    for (const double angle : angles_rad) {
+        scene.meter(inside, inside + Vec3(std::sin(angle), 0.0, -std::cos(angle)), 0.004);
+    }
+    const Result result = test::run(scene, Method::combined, {64, 100});
+    for (std::size_t i = 0; i < angles_rad.size(); ++i) {
+        const double outside_rad = std::asin(std::min(1.0, n * std::sin(angles_rad[i])));
+        const double reflectance = test::truth::boundary(n, outside_rad).mean();
+        // Light that the upper boundary sends back adds R^2, R^4 ...: (1 - R) / (1 - R^2).
+        const double truth = n * n * luminance / (1.0 + reflectance);
+        test::check_truth(result.quantities[i].estimate, truth);
+        test::check_refutes(result.quantities[i].estimate, truth / (n * n));
+        test::check_refutes(result.quantities[i].estimate, truth * (1.0 + reflectance));
+    }
+}
+
+TEST_CASE("Slab: flux of a Lambertian source", "[analytic]") {
+    const double absorption_per_m = GENERATE(0.0, 40.0);
+    constexpr double thin_m = 0.01;
+    SceneBuilder scene;
+    const ObjectId lamp =
+        scene.object("lamp", Disk{Vec3::Zero(), Vec3::UnitZ(), 0.05}, scene.black());
+    scene.light("lamp", AreaLight{lamp, scene.parts.objects[lamp].shape}, 1000.0);
+    Placement place = Placement::Identity();
+    place.translate(Vec3(-3.0, -3.0, 0.001));
+    scene.solid("slab", Box{place, {6.0, 6.0, thin_m}}, scene.medium(n, absorption_per_m));
+    scene.receiver(
+        scene.object("sheet", Rectangle{{-3, -3, 0.012}, {0, 6, 0}, {6, 0, 0}}, scene.black()));
+    const Result result = test::run(scene, Method::combined, {64, 8000});
+    // The normal of the sheet points down, toward the lamp. What passes beside it is the light
+    // within 4 mrad of the horizon: 2e-5.
+    const auto mean_transmittance = [&](auto&& transmittance) {
+        return test::truth::integral(
+            [&](double angle_rad) { return transmittance(angle_rad) * std::sin(2.0 * angle_rad); },
+            0.0, 0.5 * pi);
+    };
+    const double truth = mean_transmittance([&](double angle_rad) {
+        return unpolarised_transmittance(n, angle_rad, absorption_per_m * thin_m);
+    });
+    test::check_truth(result.quantities[0].estimate, 1000.0 * truth);
+    test::check_refutes(result.quantities[0].estimate,
+                        1000.0 * unpolarised_transmittance(n, 0.0, absorption_per_m * thin_m));
+}
+
+TEST_CASE("Slab: luminance and colour through dispersive glass", "[analytic]") {
+    // Cauchy's formula for a glass like N-BK7, and an invented glass that falls from 2.0 to 1.4.
+    const bool steep = GENERATE(false, true);
+    const auto index_at = [&](double nm) {
+        return steep ? 2.0 - 0.6 * (nm - 360.0) / 470.0 : 1.5046 + 4200.0 / (nm * nm);
+    };
+    SceneBuilder materials;
+    const MediumId glass = dispersive(materials, index_at);
+    SceneBuilder scene = slab_over_emitter(std::move(materials), glass);
+    const std::vector<double> angles_rad{0.0, radians(60.0)};
+    for (const double angle : angles_rad) {
+        const Vec3 target(0.0, 0.0, 0.1 + thickness_m);
+        scene.camera(target + Vec3(std::sin(angle), 0.0, std::cos(angle)), target, Vec3::UnitY(),
+                     0.01, 4, 4);
+    }
+    const test::Replicates runs(
+        scene, Method::combined, {1024, 50, 4}, 16, [](const Result& result) {
+            std::vector<test::Replicates::Value> values;
+            for (const Image& image : result.images) {
+                const double y = image.mean.mean();
+                values.push_back({y});
+                for (const auto& channel : {image.x, image.z}) {
+                    double sum = 0.0;
+                    for (const float value : channel) sum += static_cast<double>(value);
+                    values.push_back({sum / static_cast<double>(channel.size()) / y});
+                }
+            }
+            return values;
+        });
+    for (std::size_t i = 0; i < angles_rad.size(); ++i) {
+        const auto transmittance = [&](double nm) {
+            return unpolarised_transmittance(index_at(nm), angles_rad[i]);
+        };
+        const double y = test::truth::luminous_mean(transmittance);
+        const double x = test::truth::weighted_mean(spectral::x_bar(), transmittance);
+        const double z = test::truth::weighted_mean(spectral::z_bar(), transmittance);
+        INFO("steep " << steep << " angle " << angles_rad[i]);
+        test::check_truth_over_runs(runs[3 * i], luminance * y);
+        // X, Y and Z of an equal-energy spectrum are alike. Few phases have their wavelength in
+        // the blue.
+        test::check_truth_over_runs(runs[3 * i + 1], x / y);
+        test::check_truth_over_runs(runs[3 * i + 2], z / y, 0.005);
+        test::check_refutes_over_runs(runs[3 * i], luminance);
+        if (steep) test::check_refutes_over_runs(runs[3 * i + 2], 1.0);
+    }
+}
+
+namespace {
+
+constexpr double rho = 0.6;
+const Vec3 centre(0.5, 0.5, 0.5);
+
+double ball_index_at(bool disperses, double nm) {
+    return disperses ? 2.0 - 0.6 * (nm - 360.0) / 470.0 : n;
+}
+
+// A lossless ball emits nothing and takes nothing. By the invariance of L / n^2 along a ray nothing
+// changes outside, and in the middle of the ball L = n^2 L_e / (1 - rho) in all directions.
+SceneBuilder ball_in_furnace(bool disperses) {
+    SceneBuilder scene;
+    for (const Shape& wall : SceneBuilder::room(1.0, 1.0, 1.0)) {
+        scene.area_light(scene.object("wall", wall, scene.diffuse(rho)), luminance);
+    }
+    const MediumId glass =
+        disperses ? dispersive(scene, [](double nm) { return ball_index_at(true, nm); })
+                  : scene.medium(n);
+    scene.solid("ball", Sphere{centre, 0.3}, glass);
+    return scene;
+}
+
+double mean_squared_index(bool disperses) {
+    return test::truth::luminous_mean(
+        [&](double nm) { return std::pow(ball_index_at(disperses, nm), 2); });
+}
+
+}  // namespace
+
+TEST_CASE("Glass in a furnace: luminance in air and in glass", "[analytic]") {
+    const auto [disperses, method] = GENERATE(table<bool, Method>({{false, Method::combined},
+                                                                   {true, Method::combined},
+                                                                   {true, Method::forward},
+                                                                   {true, Method::backward}}));
+    SceneBuilder scene = ball_in_furnace(disperses);
+    scene.camera({0.05, 0.05, 0.1}, centre, Vec3::UnitZ(), 0.5, 8, 8);           // the ball
+    scene.camera({0.05, 0.1, 0.1}, {0.05, 1.0, 0.1}, Vec3::UnitZ(), 0.5, 8, 8);  // walls
+    scene.camera(centre, {0.9, 0.2, 0.3}, Vec3::UnitZ(), 0.5, 8, 8);             // from within
+    const test::Replicates runs(scene, method, {96, 2000, 4}, 16, [](const Result& result) {
+        std::vector<test::Replicates::Value> values;
+        for (const Image& image : result.images) values.push_back(test::mean_of_image(image));
+        return values;
+    });
+    const double truth = luminance / (1.0 - rho);
+    const double squared = mean_squared_index(disperses);
+    INFO("disperses " << disperses << " method " << static_cast<int>(method));
+    // Behind a dispersive boundary one wavelength carries the estimate, which costs accuracy.
+    const double demand = 0.004;
+    test::check_truth_over_runs(runs[0], truth, demand);
+    test::check_truth_over_runs(runs[1], truth, demand);
+    test::check_truth_over_runs(runs[2], squared * truth, demand);
+    test::check_refutes_over_runs(runs[0], truth / (n * n));
+    test::check_refutes_over_runs(runs[1], 1.05 * truth);
+    test::check_refutes_over_runs(runs[2], truth);
+}
+
+TEST_CASE("Glass in a furnace: illuminance in glass", "[analytic]") {
+    const auto [disperses, method] =
+        GENERATE(table<bool, Method>({{false, Method::combined}, {true, Method::forward}}));
+    SceneBuilder scene = ball_in_furnace(disperses);
+    std::vector<Vec3> positions;
+    for (int i = -2; i <= 2; ++i) {
+        for (int j = -2; j <= 2; ++j) positions.push_back(centre + 0.04 * Vec3(i, j, 0.0));
+    }
+    scene.points(positions, Vec3::UnitZ());
+    const test::Replicates runs(scene, method, {16, 5000}, 16, [](const Result& result) {
+        return std::vector{test::mean_of_sensors(result)};
+    });
+    const double truth = pi * mean_squared_index(disperses) * luminance / (1.0 - rho);
+    INFO("disperses " << disperses << " method " << static_cast<int>(method));
+    test::check_truth_over_runs(runs[0], truth, 0.01);
+    test::check_refutes_over_runs(runs[0], 0.9 * truth);
+}

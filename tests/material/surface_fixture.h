@@ -46,8 +46,8 @@ struct Surface {
     }
     const Bsdf& bsdf() const { return bsdfs.back(); }
     optics::SurfaceOptics at() const {
-        return {bsdfs, spectra, wavelengths, index_above, index_below, dispersive, hero_only,
-                wavelengths.hero};
+        return {bsdfs,       spectra,    wavelengths, index_above,
+                index_below, dispersive, hero_only,   wavelengths.hero};
     }
 };
 

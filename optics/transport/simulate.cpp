@@ -299,7 +299,8 @@ private:
                 "light was lost where transparent solids contradict each other: check for solids "
                 "that share a face or are not closed");
         }
-        if (flux.numerical > 0.0) result.warnings.emplace_back("light was lost to undefined numbers");
+        if (flux.numerical > 0.0)
+            result.warnings.emplace_back("light was lost to undefined numbers");
         if (settings_.method == Method::path && stage_.has_caustics()) {
             result.warnings.emplace_back(
                 "path tracing does not see light of points and beams behind specular surfaces");

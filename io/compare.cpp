@@ -40,6 +40,10 @@ public:
         if (image_.tile_standard_error.empty()) return std::nullopt;
         return factor_ * image_.tile_standard_error[tile];
     }
+    std::optional<double> tile_standard_error(std::size_t tile) const {
+        if (image_.tile_standard_error.empty()) return std::nullopt;
+        return image_.tile_standard_error[tile] / scale_;
+    }
     std::optional<double> mean_bound() const {
         if (!has_errors()) return 0.0;
         if (!image_.mean_standard_error) return std::nullopt;
@@ -102,6 +106,7 @@ public:
                 std::hypot(image_bound, ratio * reference_bound) / means.reference;
         }
         result.worst_tile = worst_tile(means.reference);
+        if (mask_ == nullptr) result.tile_agreement = tile_agreement();
         return result;
     }
 
@@ -192,6 +197,35 @@ private:
         return worst;
     }
 
+    std::optional<TileAgreement> tile_agreement() const {
+        TileAgreement agreement;
+        std::vector<double> relative_errors;
+        std::size_t tile = 0;
+        for (int top = 0; top < height_; top += tile_size) {
+            for (int left = 0; left < width_; left += tile_size, ++tile) {
+                const auto image_error = image_.tile_standard_error(tile);
+                const auto reference_error = reference_.tile_standard_error(tile);
+                if (!image_error || !reference_error) return std::nullopt;
+                const Means means = means_of(left, top, std::min(left + tile_size, width_),
+                                             std::min(top + tile_size, height_));
+                const double error = std::hypot(*image_error, *reference_error);
+                if (!(error > 0.0) || !(means.reference > 0.0)) continue;
+                relative_errors.push_back(error / means.reference);
+                const double deviation = std::abs(means.image - means.reference) / error;
+                if (deviation > agreement.largest_deviation) {
+                    agreement.largest_deviation = deviation;
+                    agreement.x = left;
+                    agreement.y = top;
+                }
+            }
+        }
+        if (relative_errors.empty()) return std::nullopt;
+        const auto middle = relative_errors.begin() + static_cast<long>(relative_errors.size() / 2);
+        std::nth_element(relative_errors.begin(), middle, relative_errors.end());
+        agreement.median_relative_error = *middle;
+        return agreement;
+    }
+
     int width_, height_;
     Side reference_, image_;
     const LuminanceImage* mask_;
@@ -240,6 +274,13 @@ std::string comparison_text(const Comparison& comparison) {
         "difference {5} "
         "of the reference's mean\n",
         tile_size, tile.x, tile.y, tile.image_mean, tile.reference_mean, percent(tile.difference));
+    if (const auto& agreement = comparison.tile_agreement) {
+        text += fmt::format(
+            "tiles agree within           {:.2f} standard errors, the largest at [{}, {}]; median "
+            "standard error {:.2g} %\n",
+            agreement->largest_deviation, agreement->x, agreement->y,
+            100.0 * agreement->median_relative_error);
+    }
     text += comparison.ratio_of_means.expanded_uncertainty
                 ? "± is the noise of both images, 95 %\n"
                 : "Neither image states its errors, so there are no bounds.\n";

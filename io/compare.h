@@ -24,6 +24,16 @@ struct WorstTile {
         difference;  ///< image_mean - reference_mean, relative to the mean of the whole reference
 };
 
+/// How the tiles of two images that state their errors agree.
+struct TileAgreement {
+    /// Largest |difference of means| in standard errors of the difference, and its tile's corner.
+    double largest_deviation = 0.0;
+    int x = 0, y = 0;
+    /// Median over the tiles of the standard error of the difference, relative to the reference's
+    /// mean in that tile; tiles that are black are left out.
+    double median_relative_error = 0.0;
+};
+
 /// Sums run over the pixels that count.
 ///
 /// Pixels of one run share photons and wavelengths, so the noise of a mean does not follow from
@@ -41,6 +51,8 @@ struct Comparison {
     std::optional<double> noise_free_relative_rmse;
     BoundedValue ratio_of_means;  ///< image / reference
     WorstTile worst_tile;
+    /// Where both images state the errors of their tiles and all pixels count.
+    std::optional<TileAgreement> tile_agreement;
 };
 
 /// Compares pixel by pixel. @param scale luminance of the image that stands for 1 in the reference.

@@ -125,3 +125,18 @@ TEST_CASE("Stated errors of tiles and few phases are used", "[unit][compare]") {
     CHECK(tile.x == 32);
     CHECK_THAT(*tile.difference.expanded_uncertainty, WithinRel(0.12706, 1e-4));
 }
+
+TEST_CASE("Tiles are compared in their own standard errors", "[unit][compare]") {
+    LuminanceImage reference = flat(32, 16, 10.0, 0.1);
+    LuminanceImage image = flat(32, 16, 10.0, 0.1);
+    for (std::size_t row = 0; row < 16; ++row) image.luminance[row * 32 + 20] += 1.6;  // mean 10.1
+    reference.tile_standard_error = {0.03, 0.03};
+    image.tile_standard_error = {0.04, 0.04};
+    const auto agreement = compare_images(reference, image).tile_agreement;
+    REQUIRE(agreement);
+    CHECK_THAT(agreement->largest_deviation, WithinRel(0.1 / 0.05, 1e-9));
+    CHECK(agreement->x == 16);
+    CHECK_THAT(agreement->median_relative_error, WithinRel(0.005, 1e-9));
+    reference.tile_standard_error.clear();
+    CHECK_FALSE(compare_images(reference, image).tile_agreement);
+}

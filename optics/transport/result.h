@@ -71,7 +71,7 @@ struct Result {
     Settings settings;
     std::uint32_t phases = 0;
     double wall_s = 0.0;
-    std::string stopped_by;  ///< "accuracy", "time limit", "phases"
+    std::string stopped_by;  ///< "accuracy", "time limit", "phases", "interruption"
     bool accuracy_reached = true;
     std::vector<std::string> warnings;
 };

@@ -43,6 +43,8 @@ TEST_CASE("Furnace: a box room", "[analytic]") {
     const auto [rho, effort] = GENERATE(
         table<double, test::Effort>({{0.2, {64, 1000}}, {0.5, {120, 2000}}, {0.9, {100, 5000}}}));
     const auto method = GENERATE(Method::combined, Method::forward, Method::backward, Method::path);
+    // Without specular surfaces the backward method is the combined one.
+    if (method == Method::backward && rho != 0.5) return;
     // A map gathered where it is seen needs many kernels in view.
     const double half_angle_rad = method == Method::forward ? 1.0 : 0.4;
     SceneBuilder scene;
@@ -75,47 +77,66 @@ TEST_CASE("Furnace: illuminance by photons that cross sensor planes", "[analytic
 
 TEST_CASE("Furnace: closed shapes seen from within", "[analytic]") {
     const double rho = 0.7;
-    const auto method = GENERATE(Method::combined, Method::forward);
-    const double half_angle_rad = method == Method::forward ? 1.0 : 0.5;
+    const double half_angle_rad = 0.5;
     SECTION("box") {
         SceneBuilder scene = shell(Box{turned(), {1.0, 1.3, 0.8}}, rho);
         const Vec3 middle = turned() * Vec3(0.5, 0.6, 0.4);
         scene.meter(middle, turned() * Vec3(1.0, 0.7, 0.3), half_angle_rad);
         scene.meter(middle, turned() * Vec3(1.0, 1.3, 0.8), half_angle_rad);
-        check_furnace(scene, rho, method, {96, 6000});
+        check_furnace(scene, rho, Method::combined, {96, 6000});
     }
     SECTION("sphere") {
         SceneBuilder scene = shell(Sphere{{0.1, 0.2, 0.3}, 0.6}, rho);
         scene.meter({0.1, 0.2, 0.3}, {0.7, 0.2, 0.3}, half_angle_rad);
         scene.meter({0.5, 0.3, 0.1}, {0.1, 0.8, 0.3}, half_angle_rad);
-        check_furnace(scene, rho, method, {96, 6000});
+        check_furnace(scene, rho, Method::combined, {96, 6000});
     }
     SECTION("cylinder") {
         SceneBuilder scene = shell(Cylinder{{0.0, 0.0, 0.0}, {0.4, 0.2, 1.0}, 0.4}, rho);
         scene.meter({0.2, 0.1, 0.5}, {0.6, 0.1, 0.5}, half_angle_rad);   // the side
         scene.meter({0.2, 0.1, 0.5}, {0.4, 0.2, 1.0}, half_angle_rad);   // a cap
         scene.meter({0.2, 0.1, 0.5}, {0.35, 0.0, 0.0}, half_angle_rad);  // the edge between both
-        check_furnace(scene, rho, method, {96, 6000});
+        check_furnace(scene, rho, Method::combined, {96, 6000});
     }
     SECTION("between the walls of a tube") {
         SceneBuilder scene = shell(Tube{{0.0, 0.0, 0.0}, {0.0, 0.3, 0.7}, 0.6, 0.2}, rho);
         scene.meter({0.4, 0.15, 0.35}, {0.0, 0.15, 0.35}, half_angle_rad);  // the inner side
         scene.meter({0.4, 0.15, 0.35}, {0.4, 0.45, 0.35}, half_angle_rad);  // the outer side
         scene.meter({0.4, 0.15, 0.35}, {0.3, 0.3, 0.7}, half_angle_rad);    // an annulus
-        check_furnace(scene, rho, method, {96, 6000});
+        check_furnace(scene, rho, Method::combined, {96, 6000});
     }
     SECTION("mesh of a box") {
         SceneBuilder scene = shell(MeshInstance{test::box_mesh({1.0, 1.3, 0.8}, 8), turned()}, rho);
         const Vec3 middle = turned() * Vec3(0.5, 0.6, 0.4);
         scene.meter(middle, turned() * Vec3(1.0, 0.7, 0.3), half_angle_rad);
         scene.meter(middle, turned() * Vec3(1.0, 1.3, 0.8), half_angle_rad);
-        check_furnace(scene, rho, method, {96, 6000});
+        check_furnace(scene, rho, Method::combined, {96, 6000});
     }
     SECTION("mesh of a sphere") {
         SceneBuilder scene = shell(MeshInstance{test::sphere_mesh(0.6, 24), turned()}, rho);
         scene.meter({0.0, 0.0, 0.0}, {0.6, 0.2, 0.1}, half_angle_rad);
         scene.meter({0.3, 0.1, -0.1}, {0.1, 0.5, 0.3}, half_angle_rad);
-        check_furnace(scene, rho, method, {96, 6000});
+        check_furnace(scene, rho, Method::combined, {96, 6000});
+    }
+}
+
+TEST_CASE("Furnace: curved shapes by a map gathered where it is seen", "[analytic]") {
+    const double rho = 0.7;
+    const double half_angle_rad = 1.0;
+    SECTION("cylinder") {
+        SceneBuilder scene = shell(Cylinder{{0.0, 0.0, 0.0}, {0.4, 0.2, 1.0}, 0.4}, rho);
+        scene.meter({0.2, 0.1, 0.5}, {0.35, 0.0, 0.0}, half_angle_rad);
+        check_furnace(scene, rho, Method::forward, {96, 6000});
+    }
+    SECTION("between the walls of a tube") {
+        SceneBuilder scene = shell(Tube{{0.0, 0.0, 0.0}, {0.0, 0.3, 0.7}, 0.6, 0.2}, rho);
+        scene.meter({0.4, 0.15, 0.35}, {0.0, 0.15, 0.35}, half_angle_rad);
+        check_furnace(scene, rho, Method::forward, {96, 6000});
+    }
+    SECTION("mesh of a sphere") {
+        SceneBuilder scene = shell(MeshInstance{test::sphere_mesh(0.6, 24), turned()}, rho);
+        scene.meter({0.3, 0.1, -0.1}, {0.1, 0.5, 0.3}, half_angle_rad);
+        check_furnace(scene, rho, Method::forward, {96, 6000});
     }
 }
 

@@ -222,7 +222,7 @@ TEST_CASE("Glass in a furnace: luminance in air and in glass", "[analytic]") {
     scene.camera({0.05, 0.05, 0.1}, centre, Vec3::UnitZ(), 0.5, 8, 8);           // the ball
     scene.camera({0.05, 0.1, 0.1}, {0.05, 1.0, 0.1}, Vec3::UnitZ(), 0.5, 8, 8);  // walls
     scene.camera(centre, {0.9, 0.2, 0.3}, Vec3::UnitZ(), 0.5, 8, 8);             // from within
-    const test::Replicates runs(scene, method, {96, 2000, 4}, 16, [](const Result& result) {
+    const test::Replicates runs(scene, method, {48, 2000, 4}, 16, [](const Result& result) {
         std::vector<test::Replicates::Value> values;
         for (const Image& image : result.images) values.push_back(test::mean_of_image(image));
         return values;
@@ -231,7 +231,7 @@ TEST_CASE("Glass in a furnace: luminance in air and in glass", "[analytic]") {
     const double squared = mean_squared_index(disperses);
     INFO("disperses " << disperses << " method " << static_cast<int>(method));
     // Behind a dispersive boundary one wavelength carries the estimate, which costs accuracy.
-    const double demand = 0.004;
+    const double demand = 0.005;
     test::check_truth_over_runs(runs[0], truth, demand);
     test::check_truth_over_runs(runs[1], truth, demand);
     test::check_truth_over_runs(runs[2], squared * truth, demand);
@@ -242,7 +242,7 @@ TEST_CASE("Glass in a furnace: luminance in air and in glass", "[analytic]") {
 
 TEST_CASE("Glass in a furnace: illuminance in glass", "[analytic]") {
     const auto [disperses, method] =
-        GENERATE(table<bool, Method>({{false, Method::combined}, {true, Method::forward}}));
+        GENERATE(table<bool, Method>({{false, Method::forward}, {true, Method::combined}}));
     SceneBuilder scene = ball_in_furnace(disperses);
     std::vector<Vec3> positions;
     for (int i = -2; i <= 2; ++i) {

@@ -98,6 +98,7 @@ TEST_CASE("Image source: a point light before a mirror", "[analytic]") {
 TEST_CASE("Image source: a rectangle before a mirror", "[analytic]") {
     const bool camera = GENERATE(false, true);
     const auto method = GENERATE(Method::combined, Method::backward, Method::path);
+    if (!camera && method == Method::backward) return;  // sensors are read as in combined
     const double luminance = 1000.0;
     const Vec3 corner(0.3, -0.2, 1.0);  // beside the camera's view
     const Vec3 u(0.0, 0.4, 0.0);

@@ -31,22 +31,39 @@ TEST_CASE("The flux balance closes", "[unit]") {
 }
 
 TEST_CASE("A long rod loses nothing that is not accounted for", "[analytic]") {
-    // A collimated beam enters the end face of a rod of 1 m length and 1 mm radius under 40 deg and
-    // is totally reflected on its way, over 1000 times for a skew ray; lossless, so what is not
-    // reflected at the two end faces leaves at the far end.
+    // A collimated beam enters the end face of a rod of 1 m length and 0.1 mm radius and runs at
+    // the internal angle b, sin b = sin a / n: a meridional ray is reflected tan(b) / 0.2 mm = 2377
+    // times, a skew ray more often. The rod is lossless and both ends reflect R, so the far end
+    // passes (1 - R)^2 (1 + R^2 + R^4 + ...) = (1 - R) / (1 + R).
+    const double n = 1.5;
+    const double a = 0.7;
+    const double b = std::asin(std::sin(a) / n);
     test::SceneBuilder scene;
-    scene.solid("rod", Cylinder{{0, 0, 0}, {0, 0, 1.0}, 0.0005}, scene.medium(1.5));
-    const Vec3 direction = Vec3(std::sin(0.7), 0.0, std::cos(0.7));
-    scene.light("beam", BeamLight{Disk{-0.001 * direction, direction, 0.0002}, direction}, 100.0);
+    scene.solid("rod", Cylinder{{0, 0, 0}, {0, 0, 1.0}, 0.0001}, scene.medium(n));
+    const Vec3 direction = Vec3(std::sin(a), 0.0, std::cos(a));
+    scene.light("beam", BeamLight{Disk{-0.001 * direction, direction, 0.00004}, direction}, 100.0);
     const ObjectId far_end =
         scene.object("far end", Disk{{0, 0, 1.001}, Vec3::UnitZ(), 1.0}, scene.black());
     scene.receiver(far_end);
-    const Result result = run(scene.parts, 8, 2000);
+    const Result result = run(scene.parts, 40, 200);
     const FluxBalance& flux = result.flux_balance_lm;
     CHECK(std::abs(flux.closure()) < 1e-6 * flux.emitted);
     CHECK(flux.inconsistent_medium == 0.0);
     CHECK(flux.trapped == 0.0);
-    CHECK(result.rays.forward_segments > 8u * 2000u * 100u);
+    // Roulette ends half of the lossless paths at each power of two from 1024 on.
+    CHECK(result.rays.forward_segments > 40u * 200u * 1000u);
+
+    // Fresnel's equations by the angles, unpolarised.
+    const double s_wave = std::sin(a - b) / std::sin(a + b);
+    const double p_wave = std::tan(a - b) / std::tan(a + b);
+    const double reflectance = (s_wave * s_wave + p_wave * p_wave) / 2.0;
+    const double passed_lm = 100.0 * (1.0 - reflectance) / (1.0 + reflectance);
+    const Estimate& back = result.quantities.at(1).estimate;  // the side toward the rod
+    INFO("far end " << back.mean() << " +/- " << back.standard_error() << " lm, truth "
+                    << passed_lm);
+    CHECK(test::agrees(back.mean(), back.standard_error(), passed_lm));
+    CHECK(back.standard_error() < 0.03 * passed_lm);
+    CHECK_FALSE(test::agrees(back.mean(), back.standard_error(), 0.75 * passed_lm));
 }
 
 TEST_CASE("A lossless rod holds part of an isotropic emitter for ever", "[analytic]") {

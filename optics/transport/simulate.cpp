@@ -227,7 +227,7 @@ private:
     }
 
     void trace_and_deposit(const Phase& phase, BackwardMap& map, ForwardTally& tally) {
-        // Path tracing needs forward rays for the receivers and the flux balance only.
+        // Without backward photons (path tracing) these rays serve receivers and flux balance.
         const std::uint32_t rays = secondary_rays_;
         const std::uint32_t blocks = (rays + rays_per_block - 1) / rays_per_block;
         for (std::uint32_t chunk = 0; chunk < blocks; chunk += blocks_per_chunk) {

@@ -8,12 +8,12 @@
 namespace lucerna {
 namespace {
 
-// Standard deviation of the mean of `count` values; 0 variance is exact, not rounded below 0.
-double deviation_of_mean(double sum, double sum_of_squares, std::uint64_t count) {
+// Variance of the mean of `count` values; 0 is exact, not rounded below 0.
+double variance_of_mean(double sum, double sum_of_squares, std::uint64_t count) {
     if (count < 2) return std::numeric_limits<double>::infinity();
     const auto n = static_cast<double>(count);
     const double spread = sum_of_squares - sum * sum / n;
-    return std::sqrt(std::max(0.0, spread) / (n * (n - 1.0)));
+    return std::max(0.0, spread) / (n * (n - 1.0));
 }
 
 // Regularised incomplete beta function I_x(a, b) by its continued fraction
@@ -65,12 +65,19 @@ double student_t(double coverage, double degrees) {
     return 0.5 * (low + high);
 }
 
+double Uncertain::expanded_uncertainty(double coverage) const {
+    if (!(degrees_of_freedom >= 1.0)) return std::numeric_limits<double>::infinity();
+    if (standard_error == 0.0) return 0.0;
+    return student_t(1.0 - (1.0 - coverage) / candidates, degrees_of_freedom) * standard_error;
+}
+
 void Estimate::add(double value, double bias) {
     ++count_;
     sum_ += value;
     sum_of_squares_ += value * value;
     bias_sum_ += bias;
     bias_sum_of_squares_ += bias * bias;
+    product_sum_ += value * bias;
 }
 
 void Estimate::merge(const Estimate& other) {
@@ -79,14 +86,19 @@ void Estimate::merge(const Estimate& other) {
     sum_of_squares_ += other.sum_of_squares_;
     bias_sum_ += other.bias_sum_;
     bias_sum_of_squares_ += other.bias_sum_of_squares_;
+    product_sum_ += other.product_sum_;
+}
+
+double Estimate::degrees_of_freedom() const {
+    return count_ == 0 ? 0.0 : static_cast<double>(count_ - 1);
 }
 
 double Estimate::mean() const {
     return count_ == 0 ? 0.0 : sum_ / static_cast<double>(count_);
 }
 
-double Estimate::standard_error() const {
-    return deviation_of_mean(sum_, sum_of_squares_, count_);
+double Estimate::mean_standard_error() const {
+    return std::sqrt(variance_of_mean(sum_, sum_of_squares_, count_));
 }
 
 double Estimate::bias() const {
@@ -94,14 +106,18 @@ double Estimate::bias() const {
 }
 
 double Estimate::bias_standard_error() const {
-    return deviation_of_mean(bias_sum_, bias_sum_of_squares_, count_);
+    return std::sqrt(variance_of_mean(bias_sum_, bias_sum_of_squares_, count_));
+}
+
+double Estimate::standard_error(double correction) const {
+    // Of v - c b: the sum of its squares follows from those of v and b and of their product.
+    const double squares = sum_of_squares_ - 2.0 * correction * product_sum_ +
+                           correction * correction * bias_sum_of_squares_;
+    return std::sqrt(variance_of_mean(sum_ - correction * bias_sum_, squares, count_));
 }
 
 double Estimate::expanded_uncertainty(double coverage) const {
-    if (count_ < 2) return std::numeric_limits<double>::infinity();
-    // Noise of the mean, and the measured kernel bias as a bound that adds to it linearly.
-    const double t = student_t(coverage, static_cast<double>(count_ - 1));
-    return t * standard_error() + std::abs(bias());
+    return corrected().expanded_uncertainty(coverage);
 }
 
 }  // namespace lucerna

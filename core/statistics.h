@@ -1,16 +1,35 @@
-// Values estimated from independent phases, with their standard error.
+// Values estimated from independent phases, with their uncertainty.
 #pragma once
 
 #include <cstdint>
 
 namespace lucerna {
 
+/// Two-sided quantile of Student's t: P(|T| <= t) = coverage with `degrees` >= 1 degrees of
+/// freedom.
+double student_t(double coverage, double degrees);
+
+/// A number with the uncertainty that a finite number of phases leaves to it.
+struct Uncertain {
+    double value = 0.0;
+    double standard_error = 0.0;      ///< infinite if nothing is known of it
+    double degrees_of_freedom = 0.0;  ///< of the standard error
+    /// Among how many candidates the value was chosen as the least or the greatest, so that its
+    /// noise was chosen too; the uncertainty covers all of them (Bonferroni's inequality).
+    double candidates = 1.0;
+
+    /// Half width U of the interval value +/- U that holds the truth with this probability.
+    double expanded_uncertainty(double coverage = 0.95) const;
+};
+
 /// Running mean and spread of a functional that is computed once per phase (METHOD eq. 5, with N -
 /// 1).
 ///
 /// The phase is the statistical unit: photons and wavelengths are shared within it, so an error bar
 /// taken inside a phase would be too small. `bias` runs beside the value: the kernel bias of the
-/// same phase as measured from two radii.
+/// same phase as measured from two radii of the same photons. The value that is reported has the
+/// measured bias taken off: what is left of it is of fourth order in the radius, and the noise of
+/// the correction is part of the spread over phases.
 class Estimate {
 public:
     void add(double value, double bias = 0.0);
@@ -18,14 +37,21 @@ public:
     void merge(const Estimate& other);
 
     std::uint64_t count() const { return count_; }
+    double degrees_of_freedom() const;
+
+    /// Mean with `correction` times the bias taken off, 0 to 1, and the standard deviation of that
+    /// over phases; infinite for fewer than two phases.
+    double value(double correction = 1.0) const { return mean() - correction * bias(); }
+    double standard_error(double correction = 1.0) const;
+    Uncertain corrected() const { return {value(), standard_error(), degrees_of_freedom()}; }
+    /// Half width U of the interval value() +/- U.
+    double expanded_uncertainty(double coverage = 0.95) const;
+
+    /// Mean as estimated, kernel bias included, and its standard deviation (METHOD eq. 5).
     double mean() const;
-    /// Standard deviation of the mean over phases; infinite for fewer than two phases.
-    double standard_error() const;
+    double mean_standard_error() const;
     double bias() const;
     double bias_standard_error() const;
-    /// Half width U of the interval mean +/- U: Student's t times the standard error, plus the
-    /// measured kernel bias as a bound that adds to the noise linearly.
-    double expanded_uncertainty(double coverage = 0.95) const;
 
 private:
     std::uint64_t count_ = 0;
@@ -33,10 +59,7 @@ private:
     double sum_of_squares_ = 0.0;
     double bias_sum_ = 0.0;
     double bias_sum_of_squares_ = 0.0;
+    double product_sum_ = 0.0;  // of value and bias
 };
-
-/// Two-sided quantile of Student's t: P(|T| <= t) = coverage with `degrees` >= 1 degrees of
-/// freedom.
-double student_t(double coverage, double degrees);
 
 }  // namespace lucerna

@@ -18,6 +18,7 @@
 
 #include "core/diagnostics.h"
 #include "io/atomic_file.h"
+#include "io/report.h"
 #include "spectral/colorimetry.h"
 
 namespace lucerna::io {
@@ -86,7 +87,7 @@ private:
             const Vec3 weights = spectral::linear_srgb_from_xyz().row(c);
             add(std::string(1, "RGB"[c]), [&](std::size_t i) {
                 return weights.dot(
-                    Vec3(double{image_.x[i]}, image_.luminance[i].mean(), double{image_.z[i]}));
+                    Vec3(double{image_.x[i]}, image_.pixel(i).value, double{image_.z[i]}));
             });
         }
     }
@@ -193,16 +194,26 @@ LuminanceImage read(const std::filesystem::path& path) {
 void write_exr(const std::filesystem::path& path, const optics::Image& image,
                const Provenance& provenance) {
     Planes planes(image, provenance);
-    planes.add("luminance.Y", [&](std::size_t i) { return image.luminance[i].mean(); });
+    const auto estimate = [&](std::size_t i) -> const Estimate& { return image.luminance[i]; };
+    const double correction = image.correction;
+    planes.add("luminance.Y", [&](std::size_t i) { return estimate(i).value(correction); });
     planes.add("luminance.standard_error",
-               [&](std::size_t i) { return image.luminance[i].standard_error(); });
-    planes.add("luminance.bias", [&](std::size_t i) { return image.luminance[i].bias(); });
+               [&](std::size_t i) { return estimate(i).standard_error(correction); });
+    planes.add("luminance.bias", [&](std::size_t i) { return estimate(i).bias(); });
+    const double degrees = image.mean.degrees_of_freedom();
+    const double t = degrees >= 1.0 ? student_t(report_coverage, degrees) : infinity;
+    planes.add("luminance.expanded_uncertainty", [&](std::size_t i) {
+        const double error = image.pixel(i).standard_error;
+        return error > 0.0 ? t * error : 0.0;
+    });
     std::vector<float> tile_errors;
     for (const Estimate& tile : image.tiles)
         tile_errors.push_back(static_cast<float>(tile.standard_error()));
     Imf::Header& header = planes.header();
     header.insert("units", Imf::StringAttribute("cd/m2"));
     header.insert("delta", Imf::DoubleAttribute(image.delta));
+    header.insert("biasCorrection", Imf::DoubleAttribute(correction));
+    header.insert("coverage", Imf::DoubleAttribute(report_coverage));
     header.insert("meanStandardError", Imf::DoubleAttribute(image.mean.standard_error()));
     header.insert("tileSize", Imf::IntAttribute(optics::Image::tile_size));
     header.insert("tileStandardError", Imf::FloatVectorAttribute(tile_errors));

@@ -5,7 +5,6 @@
 #include <nlohmann/json.hpp>
 
 #include "core/parallel.h"
-#include "spectral/colorimetry.h"
 
 namespace lucerna::io {
 namespace {
@@ -53,43 +52,60 @@ std::string method_name(optics::Method method) {
     throw std::logic_error("unknown method");
 }
 
+// The parts of an uncertain number, as keys of a JSON object.
+void add_uncertain(Json& json, const Uncertain& result, const std::string& name, Numbers& number) {
+    json["value"] = number(result.value, name + " value");
+    json["standard_error"] = number(result.standard_error, name + " standard_error");
+    json["degrees_of_freedom"] = result.degrees_of_freedom;
+    json["expanded_uncertainty"] =
+        number(result.expanded_uncertainty(report_coverage), name + " expanded_uncertainty");
+    json["coverage"] = report_coverage;
+}
+
 Json image_json(const optics::Image& image, Numbers& number) {
+    const Uncertain mean = image.mean.corrected();
     return {{"name", image.name},
             {"width", image.width},
             {"height", image.height},
             {"delta", number(image.delta, image.name + " delta")},
             {"delta_bias", number(image.delta_bias, image.name + " delta_bias")},
-            {"mean_luminance", number(image.mean.mean(), image.name + " mean_luminance")},
+            {"bias_correction", image.correction},
+            {"mean_luminance", number(mean.value, image.name + " mean_luminance")},
             {"mean_luminance_expanded_uncertainty",
-             number(image.mean.expanded_uncertainty(report_coverage),
+             number(mean.expanded_uncertainty(report_coverage),
                     image.name + " mean_luminance_expanded_uncertainty")}};
 }
 
 Json quantity_json(const optics::Quantity& quantity, Numbers& number) {
     const Estimate& estimate = quantity.estimate;
-    const auto named = [&](double value, const char* what) {
-        return number(value, quantity.name + " " + what);
+    Json json = {{"name", quantity.name}, {"quantity", quantity.quantity}, {"unit", quantity.unit}};
+    add_uncertain(json, quantity.result(), quantity.name, number);
+    json["bias"] = number(estimate.bias(), quantity.name + " bias");
+    json["bias_standard_error"] =
+        number(estimate.bias_standard_error(), quantity.name + " bias_standard_error");
+    json["uncorrected"] = {
+        {"value", estimate.mean()},
+        {"standard_error",
+         number(estimate.mean_standard_error(), quantity.name + " uncorrected standard_error")}};
+    json["phases"] = estimate.count();
+    if (!quantity.colour) return json;
+    const optics::Colour& colour = *quantity.colour;
+    const auto add = [&](const char* key, const Uncertain& result) {
+        json[key] = number(result.value, quantity.name + " " + key);
+        json[std::string(key) + "_expanded_uncertainty"] =
+            number(result.expanded_uncertainty(report_coverage),
+                   quantity.name + " " + key + " expanded_uncertainty");
     };
-    Json json = {{"name", quantity.name},
-                 {"quantity", quantity.quantity},
-                 {"unit", quantity.unit},
-                 {"value", named(estimate.mean(), "value")},
-                 {"standard_error", named(estimate.standard_error(), "standard_error")},
-                 {"bias", named(estimate.bias(), "bias")},
-                 {"expanded_uncertainty",
-                  named(estimate.expanded_uncertainty(report_coverage), "expanded_uncertainty")},
-                 {"coverage", report_coverage},
-                 {"phases", estimate.count()}};
-    if (quantity.x == 0.0 && quantity.z == 0.0) return json;  // colour has no meaning here
-    const spectral::Xyz colour{quantity.x, estimate.mean(), quantity.z};
-    if (const auto chromaticity = spectral::chromaticity(colour)) {
-        json["x"] = named(chromaticity->x, "x");
-        json["y"] = named(chromaticity->y, "y");
-    }
-    if (const auto temperature = spectral::correlated_colour_temperature(colour)) {
-        json["correlated_colour_temperature_k"] = named(temperature->cct_k, "colour temperature");
-        json["duv"] = named(temperature->duv, "duv");
-    }
+    add("x", colour.x);
+    add("y", colour.y);
+    if (colour.cct_k) add("correlated_colour_temperature_k", *colour.cct_k);
+    if (colour.duv) add("duv", *colour.duv);
+    return json;
+}
+
+Json derived_json(const optics::DerivedQuantity& derived, Numbers& number) {
+    Json json = {{"name", derived.name}, {"quantity", derived.quantity}, {"unit", derived.unit}};
+    add_uncertain(json, derived.result, derived.name, number);
     return json;
 }
 
@@ -151,6 +167,10 @@ std::string report_json(const optics::Result& result, const ReportSource& source
     json["quantities"] = Json::array();
     for (const auto& quantity : result.quantities) {
         json["quantities"].push_back(quantity_json(quantity, number));
+    }
+    json["derived_quantities"] = Json::array();
+    for (const auto& derived : result.derived) {
+        json["derived_quantities"].push_back(derived_json(derived, number));
     }
     json["flux_balance_lm"] = flux_json(result.flux_balance_lm, number);
     json["rays"] = rays_json(result.rays, number);

@@ -71,7 +71,7 @@ SceneFile read_scene_file(const std::filesystem::path& path) {
     read_lights(context, objects, map.optional("lights"));
     read_cameras(context, map.optional("cameras"));
     read_sensors(context, objects, map.optional("sensors"));
-    scene.settings = read_settings(map.optional("simulation"));
+    scene.settings = read_settings(map.optional("simulation"), scene.parts);
     map.no_other_keys();
     if (diagnostics.empty()) check_whole(scene, root);
     throw_sorted(diagnostics, file);

@@ -5,7 +5,6 @@
 
 #include "io/measured_value.h"
 #include "io/report.h"
-#include "spectral/colorimetry.h"
 
 namespace lucerna::io {
 namespace {
@@ -42,21 +41,20 @@ std::string images_text(const optics::Result& result) {
         text += fmt::format(
             "Image {}: {} x {} pixels, noise δ = {:.2g} %, kernel bias {:.2g} %, mean {} cd/m2\n",
             image.name, image.width, image.height, 100.0 * image.delta, 100.0 * image.delta_bias,
-            measured_value(image.mean.mean(), image.mean.expanded_uncertainty(report_coverage)));
+            measured_value(image.mean.value(), image.mean.expanded_uncertainty(report_coverage)));
     }
     return text;
 }
 
-// "x 0.3127  y 0.3290  6504 K" where the quantity has a colour.
+// "x 0.3127 ± 0.0004  y 0.3290 ± 0.0004  6504 ± 12 K" where the quantity has a colour.
 std::string colour_text(const optics::Quantity& quantity) {
-    if (quantity.x == 0.0 && quantity.z == 0.0) return "";
-    const spectral::Xyz colour{quantity.x, quantity.estimate.mean(), quantity.z};
-    const auto chromaticity = spectral::chromaticity(colour);
-    if (!chromaticity) return "";
-    std::string text = fmt::format("x {:.4f}  y {:.4f}", chromaticity->x, chromaticity->y);
-    if (const auto temperature = spectral::correlated_colour_temperature(colour)) {
-        text += fmt::format("  {:.0f} K", temperature->cct_k);
-    }
+    if (!quantity.colour) return "";
+    const auto text_of = [](const Uncertain& result) {
+        return measured_value(result.value, result.expanded_uncertainty(report_coverage));
+    };
+    std::string text =
+        fmt::format("x {}  y {}", text_of(quantity.colour->x), text_of(quantity.colour->y));
+    if (quantity.colour->cct_k) text += fmt::format("  {} K", text_of(*quantity.colour->cct_k));
     return text;
 }
 
@@ -69,8 +67,8 @@ std::string quantities_text(const optics::Result& result) {
         const Estimate& estimate = quantity.estimate;
         rows.push_back(
             {quantity.name, quantity.quantity,
-             measured_value(estimate.mean(), estimate.expanded_uncertainty(report_coverage)) + " " +
-                 quantity.unit,
+             measured_value(estimate.value(), estimate.expanded_uncertainty(report_coverage)) +
+                 " " + quantity.unit,
              colour_text(quantity)});
     }
     std::string text =
@@ -78,6 +76,14 @@ std::string quantities_text(const optics::Result& result) {
     if (result.quantities.size() > shown) {
         text += fmt::format("  and {} more in the report\n", result.quantities.size() - shown);
     }
+    rows.clear();
+    for (const optics::DerivedQuantity& derived : result.derived) {
+        const Uncertain& value = derived.result;
+        rows.push_back({derived.name,
+                        measured_value(value.value, value.expanded_uncertainty(report_coverage)) +
+                            (derived.unit == "1" ? "" : " " + derived.unit)});
+    }
+    if (!rows.empty()) text += "\n" + table(rows);
     return text;
 }
 

@@ -47,14 +47,6 @@ void add_normalised(std::vector<double>& density, double weight,
     for (std::size_t i = 0; i < density.size(); ++i) density[i] += weight * values[i] / area;
 }
 
-// A number in [0, 1) as a multiple of 2^-64, whose additions wrap around without rounding.
-std::uint64_t fixed_point_start(std::uint64_t seed) {
-    RandomStream random(seed, 0, RandomPurpose::wavelengths, 0);
-    const auto high = static_cast<std::uint64_t>(random.uniform() * 0x1p32);
-    const auto low = static_cast<std::uint64_t>(random.uniform() * 0x1p32);
-    return high << 32 | low;
-}
-
 }  // namespace
 
 Lanes WavelengthSet::at(const Spectrum& spectrum) const {
@@ -94,13 +86,11 @@ WavelengthSampler::WavelengthSampler(const Spectrum& emission, Dispersion disper
 }
 
 WavelengthSet WavelengthSampler::sample(std::uint64_t seed, std::uint32_t phase) const {
-    static_assert(lane_count == 16, "the four leading bits of U are the hero lane");
-    constexpr std::uint64_t step = 0xB9E3779B97F4A7C1;  // (11 + 1/phi) / 16 * 2^64
-    const std::uint64_t u = fixed_point_start(seed) + phase * step;
-    const double shift = static_cast<double>((u << 4) >> 11) * 0x1p-53;
+    RandomStream random(seed, phase, RandomPurpose::wavelengths, 0);
+    const double shift = random.uniform();
 
     WavelengthSet set;
-    set.hero = static_cast<int>(u >> 60);
+    set.hero = static_cast<int>(random.uniform() * lane_count);
     for (int k = 0; k < lane_count; ++k) {
         const double wavelength_nm = quantile_nm((k + shift) / lane_count);
         const double interval_nm = 1.0 / (lane_count * pdf_per_nm(wavelength_nm));

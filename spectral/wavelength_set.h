@@ -53,11 +53,10 @@ public:
 
     /// Wavelengths of a phase, in increasing order; depends on (seed, phase) only.
     ///
-    /// The phase draws one number U in [0, 1), uniform over seeds. The stratum that 16 U falls into
-    /// is the hero lane, and the rest of 16 U is the shift common to all strata: two independent
-    /// uniform numbers. Over the phases U walks in steps of (11 + 1/phi) / 16, phi the golden
-    /// ratio: the shifts are then the golden ratio sequence, and hero and shift together fill
-    /// [0, 1) evenly as well (star discrepancy below 2.7 / n for n phases; 11 is the best of 0-15).
+    /// The shift common to all strata and the hero lane are drawn anew for each phase: then phases
+    /// are independent, and their spread states the error of their mean. (A sequence that fills
+    /// the interval evenly over the phases would err less, but nothing in the run could tell by how
+    /// much: stated errors of quiet readings would be several times too large.)
     WavelengthSet sample(std::uint64_t seed, std::uint32_t phase) const;
 
     /// Density per nm at a wavelength; integrates to 1 over [360, 830] nm, zero outside.

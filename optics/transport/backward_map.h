@@ -48,14 +48,14 @@ public:
     /// Returns the number of deposits.
     std::uint64_t apply(std::size_t part, std::span<const Deposits> blocks);
 
-    /// Calls read(bin, radiance, radiance_inner) for each backward photon of a block of observer
+    /// Calls read(bin, radiance, bias of it) for each backward photon of a block of observer
     /// samples, in order; `rays` is the number of forward rays traced.
     template <typename Read>
     void read(std::size_t block, std::uint64_t rays, Read&& read) const {
         for (std::size_t i = block_starts_[block]; i < block_starts_[block + 1]; ++i) {
             if (!touched_[i]) continue;
             const Gathered sum = radiance(i, rays);
-            read(photons_[i].bin, sum.radiance, sum.radiance_inner);
+            read(photons_[i].bin, sum.radiance, sum.bias());
         }
     }
 

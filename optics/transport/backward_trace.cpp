@@ -42,7 +42,7 @@ public:
                  .hero = phase_.wavelengths.hero,
                  .lossless_events = 0};
         importance_ = 1.0;
-        if (!leave_observer(bins.observer, bin, random)) return;
+        if (!leave_observer(bins, bin, sample, random)) return;
         while (true) {
             while (next_event(random)) {
             }
@@ -56,8 +56,9 @@ public:
 
 private:
     // Starts the ray; false if nothing remains to be traced.
-    bool leave_observer(std::size_t number, std::size_t bin, RandomStream& random) {
-        const Observer& observer = phase_.stage.parts().observers[number];
+    bool leave_observer(const ObserverBins& bins, std::size_t bin, std::uint32_t sample,
+                        RandomStream& random) {
+        const Observer& observer = phase_.stage.parts().observers[bins.observer];
         const double u1 = random.uniform();
         const double u2 = random.uniform();
         if (const auto* camera = std::get_if<Camera>(&observer)) {
@@ -70,7 +71,11 @@ private:
                                               std::cos(meter->acceptance_half_angle_rad), u1, u2))};
         } else {
             const auto& points = std::get<IlluminancePoints>(observer);
-            return leave_sensor(points, bin, planes_.plane_of(number, bin), u1, u2, random);
+            // All samples of a point gather the same photons: the first does it for all.
+            if (sample == 0) {
+                gather_at_sensor(points, planes_.point(bins.observer, bin));
+            }
+            return leave_sensor(points, planes_.point(bins.observer, bin), u1, u2, random);
         }
         path_.media = phase_.stage.media_at(path_.ray.origin);
         return true;
@@ -78,23 +83,36 @@ private:
 
     // An illuminance point is the first scattering event of its rays: a virtual white diffuser
     // whose luminance is L = E / pi.
-    bool leave_sensor(const IlluminancePoints& points, std::size_t bin, std::uint32_t plane,
-                      double u1, double u2, RandomStream& random) {
-        const Vec3& position = points.positions[bin];
-        const SurfacePoint point{position, points.normal, no_object, plane, plane};
+    template <typename Use>
+    void at_sensor(const IlluminancePoints& points, const SensorPlanes::Point& sensor,
+                   const Use& use) {
+        const SurfacePoint point{sensor.position, points.normal, no_object, sensor.plane,
+                                 sensor.plane};
         const Frame frame(points.normal);
         const Vec3 wo = Vec3::UnitZ();
         const Bsdf& diffuser = phase_.stage.parts().bsdfs[phase_.stage.white_diffuser()];
         const SurfaceOptics optics = optics_at(phase_, no_object, no_object, false, 0);
-        const GatherPoint at{point, frame, wo, diffuser, optics};
+        use(GatherPoint{point, frame, wo, diffuser, optics, sensor.clearance_m});
+    }
+
+    void gather_at_sensor(const IlluminancePoints& points, const SensorPlanes::Point& sensor) {
+        at_sensor(points, sensor, [&](const GatherPoint& at) {
+            gather(at, collection_.sensor_gather, Lanes::Constant(static_cast<float>(pi)));
+        });
+    }
+
+    bool leave_sensor(const IlluminancePoints& points, const SensorPlanes::Point& sensor, double u1,
+                      double u2, RandomStream& random) {
+        const Vec3& position = sensor.position;
         path_.media = phase_.stage.media_at(position);
         path_.weight *= static_cast<float>(pi);
-        readings_.add(phase_, bin_,
-                      path_.weight * direct_light(phase_, at, nullptr, path_.media, path_.media,
-                                                  random, tally_.shadow_segments));
-        gather(at, collection_.sensor_gather);
+        at_sensor(points, sensor, [&](const GatherPoint& at) {
+            readings_.add(phase_, bin_,
+                          path_.weight * direct_light(phase_, at, nullptr, path_.media, path_.media,
+                                                      random, tally_.shadow_segments));
+        });
         const Vec3 wi = sample_cosine_hemisphere(u1, u2);
-        path_.ray = {position, frame.to_world(wi)};
+        path_.ray = {position, Frame(points.normal).to_world(wi)};
         scattered_at(position, wi.z() / pi);
         return true;
     }
@@ -208,16 +226,14 @@ private:
                                                   above ? encounter.media_beyond : path_.media,
                                                   random, tally_.shadow_segments));
         if (scatterings_ > 0) return;
-        gather(at, collection_.first_gather);
+        gather(at, collection_.first_gather, path_.weight);
         if (collection_.first_deposit) store(encounter, collection_.first_deposit);
     }
 
-    void gather(const GatherPoint& at, std::uint8_t histories) {
+    void gather(const GatherPoint& at, std::uint8_t histories, const Lanes& weight) {
         if (!histories) return;
         const Gathered gathered = forward_map_.gather(phase_, radii_, at);
-        readings_.add(phase_, bin_, path_.weight * gathered.radiance);
-        const Lanes bias = 2.0f * (gathered.radiance - gathered.radiance_inner);
-        readings_.add_bias(bin_, phase_.luminous(path_.weight * bias));
+        readings_.add(phase_, bin_, weight * gathered.radiance, weight * gathered.bias());
     }
 
     void store(const Encounter& encounter, std::uint8_t accepts) {

@@ -39,7 +39,7 @@ TraceRate rate(Phase& phase, const std::function<void()>& trace) {
 TraceRates measure_trace_rates(const SceneParts& parts, const Settings& settings,
                                std::uint32_t max_paths) {
     const Stage stage(parts);
-    const SensorPlanes planes(parts, stage.caster().scene_radius_m() / 20.0);
+    const SensorPlanes planes(parts, stage.caster(), stage.caster().scene_radius_m() / 6.0);
     Phase phase(stage, settings.seed, 0);
     TraceRates rates;
     rates.forward = rate(phase, [&] {

@@ -45,11 +45,12 @@ Gathered ForwardMap::gather(const Phase& phase, const Radii& radii, const Gather
     if (photons_.empty()) return sum;
     const Stage& stage = phase.stage;
     const std::uint32_t patch = kernel_patch(stage, at.point);
-    const double radius_m = radii[patch];
+    const double cell_m = 2.0 * radii[patch];
+    const double radius_m = std::min(radii[patch], at.most_radius_m);
     const double inner_m = inner_radius_factor * radius_m;
     const Vec3 reach = Vec3::Constant(radius_m);
-    const CellKey low = CellKey::at(patch, at.point.position - reach, 2.0 * radius_m);
-    const CellKey high = CellKey::at(patch, at.point.position + reach, 2.0 * radius_m);
+    const CellKey low = CellKey::at(patch, at.point.position - reach, cell_m);
+    const CellKey high = CellKey::at(patch, at.point.position + reach, cell_m);
     bool found = false;
     for (std::int32_t x = low.x; x <= high.x; ++x) {
         for (std::int32_t y = low.y; y <= high.y; ++y) {

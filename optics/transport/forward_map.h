@@ -40,11 +40,15 @@ struct GatherPoint {
     const Vec3& wo;  ///< local direction toward the observer
     const Bsdf& bsdf;
     const SurfaceOptics& optics;
+    double most_radius_m = infinity;  ///< of the kernel
 };
 
 struct Gathered {
     Lanes radiance = Lanes::Zero();        ///< at the full radius [W/(m2 sr nm)]
     Lanes radiance_inner = Lanes::Zero();  ///< at the inner radius
+
+    /// Kernel bias of `radiance`, as both radii tell it.
+    Lanes bias() const { return 2.0f * (radiance - radiance_inner); }
 };
 
 /// Immutable after construction. Consistent: biased by O(r^2), and by nothing else.

@@ -1,6 +1,7 @@
 #include "optics/transport/radii.h"
 
 #include <algorithm>
+#include <numbers>
 
 #include "optics/transport/forward_map.h"
 
@@ -26,10 +27,50 @@ double median_square_distance(const std::vector<Vec3>& points) {
     return probes[probes.size() / 2];
 }
 
+// The widest radius, at most limit_m, at which the photon density around the points differs from
+// that at the radius 1 / sqrt(2) times as wide as a kernel bias of 5 % of it would make it.
+double radius_of_small_bias(const std::vector<Vec3>& photons,
+                            const std::vector<SensorPlanes::Point>& points, double limit_m) {
+    constexpr double small_bias = 0.05;
+    constexpr std::size_t most_points = 64;
+    constexpr double least_photons = 40.0;  // per point, so that a bias of that size shows
+    const std::size_t step = std::max<std::size_t>(1, points.size() / most_points);
+    std::vector<std::vector<double>> distances_m;  // per point, sorted
+    for (std::size_t i = 0; i < points.size(); i += step) {
+        auto& of_point = distances_m.emplace_back();
+        for (const Vec3& photon : photons) {
+            const double distance_m = (photon - points[i].position).norm();
+            if (distance_m < limit_m) of_point.push_back(distance_m);
+        }
+        std::sort(of_point.begin(), of_point.end());
+    }
+    const auto within = [](const std::vector<double>& sorted, double radius_m) {
+        return static_cast<double>(std::lower_bound(sorted.begin(), sorted.end(), radius_m) -
+                                   sorted.begin());
+    };
+    for (double radius_m = limit_m;; radius_m /= std::numbers::sqrt2) {
+        double photon_count = 0.0;
+        double bias_square = 0.0;
+        double square = 0.0;
+        for (const auto& of_point : distances_m) {
+            const double all = within(of_point, radius_m);
+            const double inner = within(of_point, inner_radius_factor * radius_m);
+            // bias = 2 (n(r) - 2 n(r / sqrt 2)) / (pi r^2); the variance of that difference of
+            // counts is the number of all.
+            const double bias = 2.0 * (all - 2.0 * inner);
+            bias_square += bias * bias - 4.0 * all;
+            square += all * all;
+            photon_count += all;
+        }
+        if (photon_count < least_photons * static_cast<double>(distances_m.size())) return 0.0;
+        if (bias_square <= small_bias * small_bias * square) return radius_m;
+    }
+}
+
 }  // namespace
 
 Radii Radii::at_phase(std::uint32_t number) const {
-    constexpr double alpha = 2.0 / 3.0;
+    constexpr double alpha = 4.0 / 5.0;
     const double factor = std::pow(static_cast<double>(number) + 1.0, (alpha - 1.0) / 2.0);
     std::vector<double> shrunk;
     shrunk.reserve(radii_m_.size());
@@ -37,9 +78,9 @@ Radii Radii::at_phase(std::uint32_t number) const {
     return Radii(std::move(shrunk));
 }
 
-Radii pilot_radii(const Stage& stage, const std::vector<Photon>& photons, double photons_per_kernel,
-                  double scale, std::uint32_t sensor_planes, double sensor_limit_m) {
-    std::vector<std::vector<Vec3>> positions(stage.patch_count() + sensor_planes);
+Radii pilot_radii(const Stage& stage, const SensorPlanes& planes,
+                  const std::vector<Photon>& photons, double photons_per_kernel, double scale) {
+    std::vector<std::vector<Vec3>> positions(stage.patch_count() + planes.count());
     for (const Photon& photon : photons) {
         positions[kernel_patch(stage, photon.point)].push_back(photon.point.position);
     }
@@ -49,7 +90,7 @@ Radii pilot_radii(const Stage& stage, const std::vector<Photon>& photons, double
     for (std::uint32_t patch = 0; patch < positions.size(); ++patch) {
         const bool sensor = patch >= stage.patch_count();
         const double limit_m =
-            sensor ? sensor_limit_m
+            sensor ? planes.margin_m()
                    : std::min(scene_limit_m, std::sqrt(stage.patch_area_m2(patch)) / 8.0);
         double radius_m = limit_m;
         if (positions[patch].size() > 2 * neighbours) {
@@ -57,7 +98,14 @@ Radii pilot_radii(const Stage& stage, const std::vector<Photon>& photons, double
             const double square = median_square_distance(positions[patch]);
             radius_m = std::sqrt(photons_per_kernel * square / (neighbours * scale));
         }
-        radii_m.push_back(std::min(limit_m, radius_m));
+        radius_m = std::min(limit_m, radius_m);
+        if (sensor) {
+            radius_m = std::max(
+                radius_m,
+                radius_of_small_bias(positions[patch],
+                                     planes.points_of(patch - stage.patch_count()), limit_m));
+        }
+        radii_m.push_back(radius_m);
     }
     return Radii(std::move(radii_m));
 }

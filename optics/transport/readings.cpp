@@ -5,17 +5,45 @@
 #include <algorithm>
 
 #include "core/parallel.h"
+#include "optics/transport/accuracy.h"
+#include "spectral/colorimetry.h"
 
 namespace lucerna::optics {
+
+Uncertain Image::pixel(std::size_t i) const {
+    const Estimate& estimate = luminance[i];
+    // The square of a measured bias holds that of its noise.
+    const double bias =
+        std::max(0.0, std::pow(estimate.bias(), 2) - std::pow(estimate.bias_standard_error(), 2));
+    const double left = 1.0 - correction;
+    const double noise = estimate.standard_error(correction);
+    return {estimate.value(correction), std::sqrt(noise * noise + left * left * bias),
+            estimate.degrees_of_freedom()};
+}
+
 namespace {
 
 constexpr std::size_t samples_per_block = 1024;
 // Backward rays that all sensors of an observer share in a phase, within limits per point.
 constexpr std::size_t sensor_samples_per_phase = 20000;
 
+// Points whose value is as near to the least one as this many standard errors of the difference
+// might be the least in truth.
+constexpr double rival_errors = 2.0;
+
 std::size_t tiles_along(std::size_t pixels) {
     constexpr std::size_t size = Image::tile_size;
     return (pixels + size - 1) / size;
+}
+
+const std::string& name_of(const Observer& observer) {
+    return std::visit([](const auto& o) -> const std::string& { return o.name; }, observer);
+}
+
+std::string point_name(const IlluminancePoints& points, std::size_t k) {
+    const auto columns = static_cast<std::size_t>(std::max(1, points.columns));
+    if (points.columns > 0) return fmt::format("{}[{},{}]", points.name, k % columns, k / columns);
+    return points.positions.size() > 1 ? fmt::format("{}[{}]", points.name, k) : points.name;
 }
 
 std::size_t bins_of(const Observer& observer) {
@@ -47,6 +75,9 @@ Readings::Readings(const SceneParts& parts, const Settings& settings)
         observers_.push_back({i, bins, count, static_cast<std::uint32_t>(samples),
                               static_cast<std::uint32_t>(samples_)});
         is_camera_.push_back(camera);
+        first_sensor_bin_.push_back(sensor_bins_);
+        if (!camera) sensor_bins_ += count;
+        targets_.push_back(settings.target_of(name_of(parts.observers[i])));
         means_.emplace_back();
         if (camera) {
             const Camera& view = std::get<Camera>(parts.observers[i]);
@@ -57,6 +88,11 @@ Readings::Readings(const SceneParts& parts, const Settings& settings)
         }
         bins += count;
         samples_ += count * samples;
+    }
+    sensors_ = BatchMeans(3 * sensor_bins_ + 3);
+    for (const Light& light : parts.lights) {
+        const spectral::Xyz xyz = spectral::tristimulus(parts.spectra[light.flux_w_per_nm]);
+        emission_ += Vec3(xyz.x, xyz.y, xyz.z);
     }
     phase_.resize(bins);
     luminance_.resize(bins);
@@ -83,6 +119,14 @@ void Readings::add(const Phase& phase, std::size_t bin, const Lanes& radiance) {
     }
 }
 
+void Readings::add(const Phase& phase, std::size_t bin, const Lanes& radiance, const Lanes& bias) {
+    add(phase, bin, radiance);
+    PhaseValue& value = phase_[bin];
+    value.x_bias += static_cast<double>((bias * phase.wavelengths.x).sum());
+    value.y_bias += static_cast<double>((bias * phase.wavelengths.luminance).sum());
+    value.z_bias += static_cast<double>((bias * phase.wavelengths.z).sum());
+}
+
 void Readings::fold_means(const ObserverBins& bins, ImageMeans& means) {
     const std::size_t columns = tiles_along(means.width);
     std::vector<double> sums(means.tiles.size());
@@ -93,7 +137,7 @@ void Readings::fold_means(const ObserverBins& bins, ImageMeans& means) {
             const PhaseValue& value = phase_[bins.first_bin + row * means.width + column];
             const std::size_t tile = row / Image::tile_size * columns + column / Image::tile_size;
             sums[tile] += value.y;
-            biases[tile] += value.bias;
+            biases[tile] += value.y_bias;
             pixels[tile] += 1.0;
         }
     }
@@ -108,15 +152,16 @@ void Readings::fold_means(const ObserverBins& bins, ImageMeans& means) {
     means.whole.add(sum / count, bias / count);
 }
 
-void Readings::fold(int threads) {
+void Readings::fold(const Phase& phase, int threads) {
     for_each_block(observers_.size(), threads, [&](std::size_t i) {
         if (is_camera_[i]) fold_means(observers_[i], means_[i]);
     });
+    fold_sensors(phase);
     constexpr std::size_t block = 1 << 14;
     for_each_block((phase_.size() + block - 1) / block, threads, [&](std::size_t b) {
         const std::size_t end = std::min(phase_.size(), (b + 1) * block);
         for (std::size_t bin = b * block; bin < end; ++bin) {
-            luminance_[bin].add(phase_[bin].y, phase_[bin].bias);
+            luminance_[bin].add(phase_[bin].y, phase_[bin].y_bias);
             x_sum_[bin] += phase_[bin].x;
             z_sum_[bin] += phase_[bin].z;
             phase_[bin] = {};
@@ -124,29 +169,79 @@ void Readings::fold(int threads) {
     });
 }
 
+void Readings::fold_sensors(const Phase& phase) {
+    std::vector<double> values;
+    values.reserve(3 * sensor_bins_ + 3);
+    for (std::size_t i = 0; i < observers_.size(); ++i) {
+        if (is_camera_[i]) continue;
+        for (std::size_t bin = 0; bin < observers_[i].count; ++bin) {
+            const PhaseValue& value = phase_[observers_[i].first_bin + bin];
+            values.insert(values.end(),
+                          {value.x - value.x_bias, value.y - value.y_bias, value.z - value.z_bias});
+        }
+    }
+    Lanes emission = Lanes::Zero();
+    for (const Light& light : phase.stage.parts().lights) {
+        emission += phase.spectra[light.flux_w_per_nm];
+    }
+    for (const Lanes& weights :
+         {phase.wavelengths.x, phase.wavelengths.luminance, phase.wavelengths.z}) {
+        values.push_back(static_cast<double>((emission * weights).sum()));
+    }
+    sensors_.add(values);
+}
+
+Readings::ImageError Readings::image_error(const ObserverBins& bins) const {
+    double noise = 0.0;      // of the pixels as estimated
+    double corrected = 0.0;  // with the whole bias taken off
+    double correction_noise = 0.0;
+    double bias = 0.0;
+    ImageError error;
+    for (std::size_t bin = bins.first_bin; bin < bins.first_bin + bins.count; ++bin) {
+        const Estimate& pixel = luminance_[bin];
+        noise += std::pow(pixel.mean_standard_error(), 2);
+        corrected += std::pow(pixel.standard_error(), 2);
+        correction_noise += std::pow(pixel.bias_standard_error(), 2);
+        bias += pixel.bias() * pixel.bias();
+    }
+    bias = std::max(0.0, bias - correction_noise);  // its own noise would else pass for bias
+    // The error of v - c b is Var v - 2 c Cov(v, b) + c^2 Var b + (1 - c)^2 bias^2; least at
+    const double covariance = 0.5 * (noise + correction_noise - corrected);
+    if (bias + correction_noise > 0.0) {
+        error.correction = std::clamp((bias + covariance) / (bias + correction_noise), 0.0, 1.0);
+    }
+    const double c = error.correction;
+    error.noise = noise - 2.0 * c * covariance + c * c * correction_noise;
+    error.bias = (1.0 - c) * (1.0 - c) * bias;
+    for (std::size_t bin = bins.first_bin; bin < bins.first_bin + bins.count; ++bin) {
+        error.square += std::pow(luminance_[bin].value(c), 2);
+    }
+    return error;
+}
+
 double Readings::delta() const {
     double variance = 0.0;
     double square = 0.0;
     for (std::size_t i = 0; i < observers_.size(); ++i) {
         if (!is_camera_[i]) continue;
-        for (std::size_t bin = 0; bin < observers_[i].count; ++bin) {
-            const Estimate& estimate = luminance_[observers_[i].first_bin + bin];
-            const double error = estimate.standard_error();
-            variance += error * error;
-            square += estimate.mean() * estimate.mean();
-        }
+        const ImageError error = image_error(observers_[i]);
+        variance += error.noise;
+        square += error.square;
     }
     return square > 0.0 ? std::sqrt(variance / square) : 0.0;
 }
 
-double Readings::worst_sensor_error() const {
+double Readings::worst_sensor() const {
     double worst = 0.0;
     for (std::size_t i = 0; i < observers_.size(); ++i) {
         if (is_camera_[i]) continue;
+        const double degrees = luminance_[observers_[i].first_bin].degrees_of_freedom();
+        if (degrees < 1.0) return infinity;
+        const double t = student_t(target_coverage, degrees);
         for (std::size_t bin = 0; bin < observers_[i].count; ++bin) {
             const Estimate& estimate = luminance_[observers_[i].first_bin + bin];
-            const double error = estimate.standard_error();
-            if (error > 0.0) worst = std::max(worst, error / std::abs(estimate.mean()));
+            worst = std::max(worst,
+                             excess(targets_[i], estimate.value(), t * estimate.standard_error()));
         }
     }
     return worst;
@@ -168,23 +263,20 @@ std::vector<Image> Readings::images(const SceneParts& parts) const {
             luminance_.begin() + first + static_cast<std::ptrdiff_t>(bins.count));
         image.tiles = means_[i].tiles;
         image.mean = means_[i].whole;
-        double variance = 0.0;
-        double square = 0.0;
-        double bias = 0.0;
+        const ImageError error = image_error(bins);
+        image.correction = error.correction;
+        if (error.square > 0.0) {
+            image.delta = std::sqrt(error.noise / error.square);
+            image.delta_bias = std::sqrt(error.bias / error.square);
+        }
         for (std::size_t bin = 0; bin < bins.count; ++bin) {
             const Estimate& estimate = image.luminance[bin];
-            const double phases = static_cast<double>(estimate.count());
-            image.x.push_back(static_cast<float>(x_sum_[bins.first_bin + bin] / phases));
-            image.z.push_back(static_cast<float>(z_sum_[bins.first_bin + bin] / phases));
-            variance += estimate.standard_error() * estimate.standard_error();
-            square += estimate.mean() * estimate.mean();
-            // Its own noise would otherwise pass for bias.
-            const double noise = estimate.bias_standard_error();
-            bias += estimate.bias() * estimate.bias() - noise * noise;
-        }
-        if (square > 0.0) {
-            image.delta = std::sqrt(variance / square);
-            image.delta_bias = std::sqrt(std::max(0.0, bias) / square);
+            // The correction keeps the pixel's colour.
+            const double scale =
+                estimate.mean() != 0.0 ? estimate.value(image.correction) / estimate.mean() : 1.0;
+            const double factor = scale / static_cast<double>(estimate.count());
+            image.x.push_back(static_cast<float>(x_sum_[bins.first_bin + bin] * factor));
+            image.z.push_back(static_cast<float>(z_sum_[bins.first_bin + bin] * factor));
         }
         if (spectral_bins_ > 0) {
             constexpr double range_nm = spectral::max_wavelength_nm - spectral::min_wavelength_nm;
@@ -205,37 +297,129 @@ std::vector<Image> Readings::images(const SceneParts& parts) const {
     return images;
 }
 
+std::optional<Colour> Readings::colour(std::size_t sensor_bin) const {
+    const std::size_t first = 3 * sensor_bin;
+    // The wavelengths of few phases miss the colour of the light itself by more than their
+    // luminance. What they make of the known emission tells by how much: a ratio estimator,
+    // exact for grey scenes and biased by O(1 / phases) of the phases' variance in others.
+    const auto calibrated = [&](auto&& mean, std::size_t part) {
+        return mean(first + part) * emission_[static_cast<Eigen::Index>(part)] /
+               mean(3 * sensor_bins_ + part);
+    };
+    const auto of_mean = [&](std::size_t part) {
+        return calibrated([&](std::size_t i) { return sensors_.mean(i); }, part);
+    };
+    const spectral::Xyz mean{of_mean(0), of_mean(1), of_mean(2)};
+    if (!(mean.x > 0.0 && mean.y > 0.0 && mean.z > 0.0)) return std::nullopt;
+    const auto share = [&](std::size_t part) {
+        return sensors_.of([&](auto&& means) {
+            const Vec3 xyz(calibrated(means, 0), calibrated(means, 1), calibrated(means, 2));
+            return xyz[static_cast<Eigen::Index>(part)] / xyz.sum();
+        });
+    };
+    Colour colour{share(0), share(1), std::nullopt, std::nullopt};
+    const auto temperature = spectral::correlated_colour_temperature(mean);
+    if (!temperature) return colour;
+    // To find the nearest black body takes long; its change with X, Y and Z is linear enough.
+    const double step = 1e-4 * (mean.x + mean.y + mean.z);
+    const auto along_x = spectral::correlated_colour_temperature({mean.x + step, mean.y, mean.z});
+    const auto along_y = spectral::correlated_colour_temperature({mean.x, mean.y + step, mean.z});
+    const auto along_z = spectral::correlated_colour_temperature({mean.x, mean.y, mean.z + step});
+    if (!along_x || !along_y || !along_z) return colour;
+    const auto linear = [&](double spectral::ColourTemperature::*part) {
+        const double value = (*temperature).*part;
+        const Vec3 slope = Vec3((*along_x).*part, (*along_y).*part, (*along_z).*part) / step -
+                           Vec3::Constant(value / step);
+        return sensors_.of([&](auto&& means) {
+            return value +
+                   slope.dot(Vec3(calibrated(means, 0) - mean.x, calibrated(means, 1) - mean.y,
+                                  calibrated(means, 2) - mean.z));
+        });
+    };
+    colour.cct_k = linear(&spectral::ColourTemperature::cct_k);
+    colour.duv = linear(&spectral::ColourTemperature::duv);
+    return colour;
+}
+
 std::vector<Quantity> Readings::quantities(const SceneParts& parts) const {
     std::vector<Quantity> quantities;
-    for (const ObserverBins& bins : observers_) {
+    for (std::size_t i = 0; i < observers_.size(); ++i) {
+        const ObserverBins& bins = observers_[i];
         const Observer& observer = parts.observers[bins.observer];
         const auto report = [&](std::string name, const char* quantity, const char* unit,
                                 std::size_t bin) {
-            const Estimate& estimate = luminance_[bin];
-            const double phases = static_cast<double>(estimate.count());
-            quantities.push_back({std::move(name), quantity, unit, estimate, x_sum_[bin] / phases,
-                                  z_sum_[bin] / phases});
+            quantities.push_back({std::move(name), quantity, unit, luminance_[bins.first_bin + bin],
+                                  colour(first_sensor_bin_[i] + bin)});
         };
         if (const auto* points = std::get_if<IlluminancePoints>(&observer)) {
             for (std::size_t k = 0; k < bins.count; ++k) {
-                const auto columns = static_cast<std::size_t>(std::max(1, points->columns));
-                const std::string name =
-                    points->columns > 0
-                        ? fmt::format("{}[{},{}]", points->name, k % columns, k / columns)
-                    : bins.count > 1 ? fmt::format("{}[{}]", points->name, k)
-                                     : points->name;
-                report(name, "illuminance", "lx", bins.first_bin + k);
+                report(point_name(*points, k), "illuminance", "lx", k);
             }
         } else if (const auto* meter = std::get_if<LuminanceMeter>(&observer)) {
-            report(meter->name, "luminance", "cd/m2", bins.first_bin);
+            report(meter->name, "luminance", "cd/m2", 0);
         }
     }
     return quantities;
 }
 
+std::vector<DerivedQuantity> Readings::derived(const SceneParts& parts) const {
+    std::vector<DerivedQuantity> derived;
+    for (std::size_t i = 0; i < observers_.size(); ++i) {
+        const ObserverBins& bins = observers_[i];
+        const auto* points = std::get_if<IlluminancePoints>(&parts.observers[bins.observer]);
+        if (points == nullptr || bins.count < 2) continue;
+        const std::size_t first = first_sensor_bin_[i];
+        const auto y_of = [](std::size_t bin) { return 3 * bin + 1; };
+        std::size_t least = 0;
+        std::size_t greatest = 0;
+        for (std::size_t k = 0; k < bins.count; ++k) {
+            const double value = sensors_.mean(y_of(first + k));
+            if (value < sensors_.mean(y_of(first + least))) least = k;
+            if (value > sensors_.mean(y_of(first + greatest))) greatest = k;
+        }
+        const auto mean_of = [&](auto&& mean) {
+            double sum = 0.0;
+            for (std::size_t k = 0; k < bins.count; ++k) sum += mean(y_of(first + k));
+            return sum / static_cast<double>(bins.count);
+        };
+        const auto at = [&](std::size_t k) {
+            return [&, k](auto&& mean) { return mean(y_of(first + k)); };
+        };
+        const auto candidates_for = [&](std::size_t chosen) {
+            const Estimate& best = luminance_[bins.first_bin + chosen];
+            double candidates = 0.0;
+            for (std::size_t k = 0; k < bins.count; ++k) {
+                const Estimate& other = luminance_[bins.first_bin + k];
+                const double noise = std::hypot(best.standard_error(), other.standard_error());
+                if (std::abs(other.value() - best.value()) <= rival_errors * noise) ++candidates;
+            }
+            return std::max(1.0, candidates);
+        };
+        const auto report = [&](const char* what, const char* quantity, const char* unit,
+                                Uncertain result, double candidates) {
+            result.candidates = candidates;
+            derived.push_back({points->name + ": " + what, quantity, unit, result});
+        };
+        const double of_least = candidates_for(least);
+        const double of_greatest = candidates_for(greatest);
+        report("mean", "average illuminance", "lx", sensors_.of(mean_of), 1.0);
+        report("minimum", "minimum illuminance", "lx", sensors_.of(at(least)), of_least);
+        report("maximum", "maximum illuminance", "lx", sensors_.of(at(greatest)), of_greatest);
+        report("uniformity U0", "illuminance uniformity, minimum / average", "1",
+               sensors_.of([&](auto&& mean) { return mean(y_of(first + least)) / mean_of(mean); }),
+               of_least);
+        report("diversity Ud", "illuminance diversity, minimum / maximum", "1",
+               sensors_.of([&](auto&& mean) {
+                   return mean(y_of(first + least)) / mean(y_of(first + greatest));
+               }),
+               of_least * of_greatest);
+    }
+    return derived;
+}
+
 std::size_t Readings::bytes() const {
     return phase_.size() * (sizeof(PhaseValue) + sizeof(Estimate) + 2 * sizeof(double)) +
-           spectral_sum_.size() * sizeof(double);
+           spectral_sum_.size() * sizeof(double) + sensors_.bytes();
 }
 
 }  // namespace lucerna::optics

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "core/batch_means.h"
 #include "core/statistics.h"
 #include "optics/transport/phase.h"
 #include "optics/transport/result.h"
@@ -36,23 +37,26 @@ public:
 
     /// Adds to the phase value of a bin a radiance, or an irradiance [W/(m2 (sr) nm)].
     void add(const Phase& phase, std::size_t bin, const Lanes& radiance);
-    /// Adds to the kernel bias of the phase value: luminance or illuminance.
-    void add_bias(std::size_t bin, double bias) { phase_[bin].bias += bias; }
+    /// Adds what a kernel collected, with its bias as measured in this phase, to a bin.
+    void add(const Phase& phase, std::size_t bin, const Lanes& radiance, const Lanes& bias);
 
     /// Ends a phase: its values enter the estimates and are set back to zero.
-    void fold(int threads);
+    void fold(const Phase& phase, int threads);
 
     std::vector<Image> images(const SceneParts& parts) const;
     std::vector<Quantity> quantities(const SceneParts& parts) const;
+    std::vector<DerivedQuantity> derived(const SceneParts& parts) const;
     /// delta of METHOD eq. (6) over the pixels of all cameras; 0 without a camera.
     double delta() const;
-    /// Largest relative standard error among the sensors; 0 without sensors.
-    double worst_sensor_error() const;
+    /// Largest ratio of the expanded uncertainty of a sensor to what is asked for; 0 without
+    /// sensors of which anything is asked.
+    double worst_sensor() const;
     std::size_t bytes() const;
 
 private:
     struct PhaseValue {
-        double x = 0.0, y = 0.0, z = 0.0, bias = 0.0;
+        double x = 0.0, y = 0.0, z = 0.0;
+        double x_bias = 0.0, y_bias = 0.0, z_bias = 0.0;
     };
 
     // Means over parts of an image, empty for sensors.
@@ -61,7 +65,17 @@ private:
         std::vector<Estimate> tiles;
         Estimate whole;
     };
+    // Sums over the pixels of an image: of squared luminances, of squared standard errors, and of
+    // the squared bias that its correction leaves.
+    struct ImageError {
+        double correction = 1.0;
+        double square = 0.0, noise = 0.0, bias = 0.0;
+    };
+
     void fold_means(const ObserverBins& bins, ImageMeans& means);
+    void fold_sensors(const Phase& phase);
+    ImageError image_error(const ObserverBins& bins) const;
+    std::optional<Colour> colour(std::size_t sensor_bin) const;
 
     std::vector<ObserverBins> observers_;
     std::vector<BinBlock> blocks_;
@@ -70,7 +84,14 @@ private:
     std::uint64_t samples_ = 0;
     std::vector<PhaseValue> phase_;
     std::vector<Estimate> luminance_;
-    std::vector<double> x_sum_, z_sum_;
+    std::vector<double> x_sum_, z_sum_;          // kernel bias included
+    std::vector<SensorTarget> targets_;          // per ObserverBins; of cameras not used
+    std::vector<std::size_t> first_sensor_bin_;  // per ObserverBins, among the bins of sensors
+    std::size_t sensor_bins_ = 0;
+    // X, Y, Z of each bin of a sensor, the kernel bias taken off, and last those of the emission of
+    // all lights on the wavelengths of the phases.
+    BatchMeans sensors_;
+    Vec3 emission_ = Vec3::Zero();  // X, Y, Z of all lights, exact
     std::size_t spectral_bins_ = 0;
     std::vector<double> spectral_sum_;  // [bin][spectral bin], W/(m2 sr) over all phases
 };

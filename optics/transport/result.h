@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,9 +16,12 @@ namespace lucerna::optics {
 struct Image {
     std::string name;
     int width = 0, height = 0;
-    std::vector<Estimate> luminance;   ///< per pixel [cd/m2], with kernel bias
-    std::vector<float> x, z;           ///< tristimulus values X, Z on the scale of Y = luminance
-    std::vector<double> bin_edges_nm;  ///< spectral_bins + 1 edges, or empty
+    std::vector<Estimate> luminance;  ///< per pixel [cd/m2]
+    /// Share of its measured kernel bias that is taken off each pixel: the one with the least total
+    /// error over the image, since the correction of a pixel has noise of its own.
+    double correction = 1.0;
+    std::vector<float> x, z;  ///< tristimulus values X, Z on the scale of Y = pixel(i).value
+    std::vector<double> bin_edges_nm;      ///< spectral_bins + 1 edges, or empty
     std::vector<float> spectral_radiance;  ///< [pixel * bins + bin], mean in the bin [W/(m2 sr nm)]
     /// Mean luminance of tiles of tile_size x tile_size pixels (smaller at the right and lower rim)
     /// and of the whole image. Taken per phase: the errors of pixels are correlated by shared
@@ -25,8 +29,18 @@ struct Image {
     static constexpr int tile_size = 16;
     std::vector<Estimate> tiles;
     Estimate mean;
-    double delta = 0.0;       ///< METHOD eq. 6
-    double delta_bias = 0.0;  ///< the same norm of the measured kernel bias
+    double delta = 0.0;       ///< METHOD eq. 6, of the corrected pixels
+    double delta_bias = 0.0;  ///< the same norm of the measured kernel bias that is left in them
+
+    /// Luminance of a pixel with its uncertainty: noise over phases, and what `correction` leaves
+    /// of the measured bias.
+    Uncertain pixel(std::size_t i) const;
+};
+
+/// Colour of a quantity (CIE 1931, 2 degrees).
+struct Colour {
+    Uncertain x, y;                       ///< chromaticity
+    std::optional<Uncertain> cct_k, duv;  ///< correlated colour temperature, where it is defined
 };
 
 /// One reported number.
@@ -35,7 +49,17 @@ struct Quantity {
     std::string quantity;  ///< term of CIE S 017: "illuminance", "luminance", "luminous flux"
     std::string unit;      ///< "lx", "cd/m2", "lm"
     Estimate estimate;
-    double x = 0.0, z = 0.0;  ///< X and Z beside the value as Y; 0 where colour has no meaning
+    std::optional<Colour> colour{};  ///< where it has a meaning
+
+    Uncertain result() const { return estimate.corrected(); }
+};
+
+/// A number that follows from several quantities of one sensor, such as a uniformity.
+struct DerivedQuantity {
+    std::string name;      ///< "desk plane: uniformity U0 (minimum / mean)"
+    std::string quantity;  ///< term of CIE S 017 or of EN 12464-1
+    std::string unit;      ///< "1" for ratios
+    Uncertain result;
 };
 
 /// Where the light of the secondary forward rays went [lm]; closes to the sum of emitted.
@@ -65,6 +89,7 @@ struct RayCounts {
 struct Result {
     std::vector<Image> images;
     std::vector<Quantity> quantities;
+    std::vector<DerivedQuantity> derived;
     FluxBalance flux_balance_lm;
     RayCounts rays;
     std::uint64_t forward_map_bytes = 0, backward_map_bytes = 0, image_bytes = 0;  ///< largest seen

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "optics/geometry/ray_caster.h"
 #include "optics/scene.h"
 
 namespace lucerna::optics {
@@ -12,7 +13,7 @@ namespace lucerna::optics {
 class SensorPlanes {
 public:
     /// @param margin_m  how far beyond its points a plane reaches; kernels must not be wider.
-    SensorPlanes(const SceneParts& parts, double margin_m);
+    SensorPlanes(const SceneParts& parts, const RayCaster& caster, double margin_m);
 
     double margin_m() const { return margin_m_; }
 
@@ -33,10 +34,19 @@ public:
         }
     }
 
-    /// The plane of a point of an observer.
-    std::uint32_t plane_of(std::size_t observer, std::size_t point) const {
-        return plane_of_[observer][point];
+    /// An illuminance point on its plane.
+    struct Point {
+        Vec3 position;
+        std::uint32_t plane;
+        /// Distance to the nearest surface along the plane, at most the margin [m]: a kernel must
+        /// not reach beyond, where no light arrives.
+        double clearance_m;
+    };
+    const Point& point(std::size_t observer, std::size_t number) const {
+        return points_[observer][number];
     }
+    /// All points of a plane.
+    std::vector<Point> points_of(std::uint32_t plane) const;
 
 private:
     struct Plane {
@@ -46,7 +56,7 @@ private:
     };
     double margin_m_;
     std::vector<Plane> planes_;
-    std::vector<std::vector<std::uint32_t>> plane_of_;  // [observer][point]
+    std::vector<std::vector<Point>> points_;  // [observer][point]
 };
 
 }  // namespace lucerna::optics

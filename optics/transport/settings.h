@@ -1,9 +1,11 @@
 // What a user may set of a simulation.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace lucerna::optics {
 
@@ -16,18 +18,39 @@ enum class PlantedError {
     gap            ///< backward photons refuse light that comes straight from a light
 };
 
+/// An expanded uncertainty (95 %) to reach.
+struct SensorTarget {
+    std::string sensor;     ///< name of a sensor; each of its points has to reach it
+    double relative = 0.0;  ///< share of the value, such as 0.01; or
+    double absolute = 0.0;  ///< number in the unit of the value, if above 0
+
+    /// The expanded uncertainty asked for of a value, in its unit; 0 if nothing is asked.
+    double wanted(double value) const {
+        return absolute > 0.0 ? absolute : relative * std::abs(value);
+    }
+};
+
 struct Settings {
     Method method = Method::combined;
     std::uint64_t seed = 1;
     int threads = 0;                        ///< 0: all of the machine
     std::optional<double> image_accuracy;   ///< delta of METHOD eq. 6 to stop at, such as 0.02
-    std::optional<double> sensor_accuracy;  ///< relative standard error of each sensor to stop at
-    std::optional<double> time_limit_s;     ///< wall time
+    std::optional<double> sensor_accuracy;  ///< U / value of each sensor to stop at, such as 0.01
+    std::vector<SensorTarget> sensor_targets;  ///< of single sensors, in place of sensor_accuracy
+    std::optional<double> time_limit_s;        ///< wall time
     std::optional<std::uint32_t> max_phases;
     std::optional<std::uint32_t> forward_rays;  ///< per phase and map; default: see simulate.cpp
     int samples_per_pixel = 1;                  ///< backward rays per pixel and phase
     int spectral_bins = 0;                      ///< bins of the spectral image; 0: none
     PlantedError planted_error = PlantedError::none;  ///< for tests only
+
+    /// What is asked of a sensor.
+    SensorTarget target_of(const std::string& sensor) const {
+        for (const SensorTarget& target : sensor_targets) {
+            if (target.sensor == sensor) return target;
+        }
+        return {sensor, sensor_accuracy.value_or(0.0), 0.0};
+    }
 };
 
 }  // namespace lucerna::optics

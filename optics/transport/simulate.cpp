@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::uint32_t rays_per_block = 256;
 constexpr std::uint32_t blocks_per_chunk = 64;  // deposits of a chunk are held at once
-constexpr std::uint32_t pilot_rays = 1 << 14;
+constexpr std::uint32_t pilot_rays = 1 << 15;
 constexpr std::uint32_t min_forward_rays = 20000;
 // Secondary forward rays per backward ray: their noise is averaged over all second scattering
 // events that a kernel serves, so that few are enough (the same delta with 1 and with 1/4 in
@@ -48,7 +48,7 @@ public:
         : settings_(settings),
           stage_(parts),
           threads_(settings.threads > 0 ? settings.threads : hardware_threads()),
-          planes_(stage_.parts(), stage_.caster().scene_radius_m() / 20.0),
+          planes_(stage_.parts(), stage_.caster(), stage_.caster().scene_radius_m() / 6.0),
           readings_(parts, settings),
           collection_(Collection::of(settings.method, settings.planted_error)),
           caustic_rays_(
@@ -57,6 +57,9 @@ public:
               at_least_min(readings_.samples_per_phase() / backward_per_secondary_ray))),
           total_(stage_.parts()),
           received_(2 * parts.receivers.size()) {
+        for (const FluxReceiver& receiver : parts.receivers) {
+            receiver_targets_.push_back(settings.target_of(receiver.name));
+        }
         pilot();
     }
 
@@ -109,28 +112,31 @@ public:
             Stopwatch watch;
             trace_and_deposit(phase, backward_map, tally);
             for_each_block(blocks.size(), threads_, [&](std::size_t i) {
-                backward_map.read(
-                    i, secondary_rays_,
-                    [&](std::uint32_t bin, const Lanes& radiance, const Lanes& inner) {
-                        readings_.add(phase, bin, radiance);
-                        readings_.add_bias(bin, 2.0 * phase.luminous(radiance - inner));
-                    });
+                backward_map.read(i, secondary_rays_,
+                                  [&](std::uint32_t bin, const Lanes& radiance, const Lanes& bias) {
+                                      readings_.add(phase, bin, radiance, bias);
+                                  });
             });
             counts_.secondary_s += watch.seconds();
         }
-        readings_.fold(threads_);
+        readings_.fold(phase, threads_);
         fold_tally(tally);
         ++phases_;
     }
 
-    double worst_receiver_error() const {
-        // Relative to both sides together: hardly any light on one side is no reason to go on.
+    /// Largest ratio of the expanded uncertainty of a receiver to what is asked for.
+    double worst_receiver() const {
         double worst = 0.0;
-        for (std::size_t i = 0; i < received_.size(); i += 2) {
-            const double both = received_[i].mean() + received_[i + 1].mean();
-            const double error =
-                std::max(received_[i].standard_error(), received_[i + 1].standard_error());
-            if (error > 0.0) worst = std::max(worst, error / both);
+        for (std::size_t i = 0; i < stage_.parts().receivers.size(); ++i) {
+            const Estimate& front = received_[2 * i];
+            const Estimate& back = received_[2 * i + 1];
+            const SensorTarget& target = receiver_targets_[i];
+            // Relative to both sides together: hardly any light on one is no reason to go on.
+            const double value = front.value() + back.value();
+            for (const Estimate* side : {&front, &back}) {
+                worst = std::max(
+                    worst, excess(target, value, side->expanded_uncertainty(target_coverage)));
+            }
         }
         return worst;
     }
@@ -141,11 +147,12 @@ public:
         result.images = readings_.images(parts);
         result.quantities = readings_.quantities(parts);
         for (std::size_t i = 0; i < parts.receivers.size(); ++i) {
-            result.quantities.push_back({parts.receivers[i].name + " (front)", "luminous flux",
-                                         "lm", received_[2 * i], 0.0, 0.0});
-            result.quantities.push_back({parts.receivers[i].name + " (back)", "luminous flux", "lm",
-                                         received_[2 * i + 1], 0.0, 0.0});
+            result.quantities.push_back(
+                {parts.receivers[i].name + " (front)", "luminous flux", "lm", received_[2 * i]});
+            result.quantities.push_back(
+                {parts.receivers[i].name + " (back)", "luminous flux", "lm", received_[2 * i + 1]});
         }
+        result.derived = readings_.derived(parts);
         result.flux_balance_lm = balance();
         result.rays = counts_;
         result.forward_map_bytes = forward_map_bytes;
@@ -188,8 +195,7 @@ private:
             const double scale = static_cast<double>(rays) / pilot_rays;
             const auto photons =
                 trace_photons(phase, RandomPurpose::pilot, reach, pilot_rays, unused);
-            return pilot_radii(stage_, photons, photons_per_kernel, scale, planes_.count(),
-                               planes_.margin_m());
+            return pilot_radii(stage_, planes_, photons, photons_per_kernel, scale);
         };
         seen_radii_ =
             radii(collection_.first_gather & mask(History::indirect) ? Reach::whole_path
@@ -317,14 +323,15 @@ private:
     std::optional<Radii> seen_radii_, hidden_radii_;  // of the first phase
     ForwardTally total_;                              // over phases
     std::vector<Estimate> received_;                  // per receiver: front, back
+    std::vector<SensorTarget> receiver_targets_;
     RayCounts counts_;
     std::uint64_t forward_map_bytes = 0, backward_map_bytes = 0;
     std::uint32_t phases_ = 0;
 };
 
 Settings with_default_target(Settings settings) {
-    if (!settings.image_accuracy && !settings.sensor_accuracy && !settings.time_limit_s &&
-        !settings.max_phases) {
+    if (!settings.image_accuracy && !settings.sensor_accuracy && settings.sensor_targets.empty() &&
+        !settings.time_limit_s && !settings.max_phases) {
         settings.image_accuracy = 0.02;
         settings.sensor_accuracy = 0.01;
     }
@@ -358,7 +365,7 @@ Result simulate(const SceneParts& parts, const Settings& asked,
         simulation.run_phase(phase++);
         const double elapsed_s = watch.seconds();
         stopped_by =
-            rule.check(phase, simulation.readings(), simulation.worst_receiver_error(), elapsed_s);
+            rule.check(phase, simulation.readings(), simulation.worst_receiver(), elapsed_s);
         if (stopped_by.empty() && interrupted && interrupted->load()) stopped_by = "interruption";
         if (on_progress) {
             const RayCounts& counts = simulation.counts();
@@ -369,7 +376,8 @@ Result simulate(const SceneParts& parts, const Settings& asked,
                          .delta_wanted = has_cameras ? settings.image_accuracy : std::nullopt,
                          .rays_per_s = rays / elapsed_s,
                          .elapsed_s = elapsed_s,
-                         .left_s = rule.left_s(simulation.readings(), elapsed_s)});
+                         .left_s = rule.left_s(simulation.readings(), simulation.worst_receiver(),
+                                               elapsed_s)});
         }
     }
     Result result = simulation.result();

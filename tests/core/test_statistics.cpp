@@ -39,7 +39,7 @@ TEST_CASE("Mean, bias and their standard errors", "[unit]") {
     }
     CHECK(estimate.count() == 8);
     CHECK_THAT(estimate.mean(), WithinRel(5.0, 1e-15));
-    CHECK_THAT(estimate.standard_error(), WithinRel(std::sqrt(32.0 / 56.0), 1e-14));
+    CHECK_THAT(estimate.mean_standard_error(), WithinRel(std::sqrt(32.0 / 56.0), 1e-14));
     CHECK_THAT(estimate.bias(), WithinRel(0.5, 1e-14));
     CHECK_THAT(estimate.bias_standard_error(), WithinRel(0.1 * std::sqrt(32.0 / 56.0), 1e-12));
 }
@@ -122,9 +122,28 @@ TEST_CASE("The expanded uncertainty covers the truth as often as it says", "[sta
     CHECK(covered_by_two / static_cast<double>(runs) < 0.92);
 }
 
-TEST_CASE("A measured bias adds to the expanded uncertainty", "[unit]") {
+TEST_CASE("The measured bias is taken off, and its noise counts", "[unit]") {
     Estimate estimate;
-    for (const double value : {9.0, 10.0, 11.0}) estimate.add(value, -0.5);
-    const double noise = student_t(0.95, 2.0) * std::sqrt(2.0 / 6.0);
-    CHECK_THAT(estimate.expanded_uncertainty(), WithinRel(noise + 0.5, 1e-9));
+    // v - b: 8, 10, 9; mean 9, SE^2 = 2 / 6
+    estimate.add(9.0, 1.0);
+    estimate.add(10.0, 0.0);
+    estimate.add(11.0, 2.0);
+    CHECK_THAT(estimate.value(), WithinRel(9.0, 1e-14));
+    CHECK_THAT(estimate.standard_error(), WithinRel(std::sqrt(2.0 / 6.0), 1e-13));
+    CHECK_THAT(estimate.expanded_uncertainty(),
+               WithinRel(student_t(0.95, 2.0) * std::sqrt(2.0 / 6.0), 1e-9));
+    CHECK_THAT(estimate.mean(), WithinRel(10.0, 1e-14));
+    CHECK_THAT(estimate.mean_standard_error(), WithinRel(std::sqrt(2.0 / 6.0), 1e-13));
+    // Half of it: v - b / 2 = 8.5, 10, 10; mean 9.5, squares 1 + 0.25 + 0.25
+    CHECK_THAT(estimate.value(0.5), WithinRel(9.5, 1e-14));
+    CHECK_THAT(estimate.standard_error(0.5), WithinRel(std::sqrt(1.5 / 6.0), 1e-13));
+}
+
+TEST_CASE("The least of several candidates has a wider interval", "[unit]") {
+    const Uncertain one{10.0, 0.5, 20.0};
+    Uncertain of_five = one;
+    of_five.candidates = 5.0;
+    CHECK_THAT(one.expanded_uncertainty(), WithinRel(0.5 * student_t(0.95, 20.0), 1e-9));
+    CHECK_THAT(of_five.expanded_uncertainty(), WithinRel(0.5 * student_t(0.99, 20.0), 1e-9));
+    CHECK(std::isinf(Uncertain{10.0, 0.5, 0.0}.expanded_uncertainty()));
 }

@@ -29,6 +29,7 @@ Estimate estimate(double mean, double standard_error, double bias) {
 optics::Image example_image() {
     optics::Image image;
     image.name = "view";
+    image.correction = 0.0;
     image.width = 24;
     image.height = 20;
     image.bin_edges_nm = {400.0, 500.0, 600.0, 700.0};
@@ -56,7 +57,13 @@ optics::Image example_image() {
 optics::Result example_result() {
     optics::Result result;
     result.images = {example_image()};
-    result.quantities = {{"desk", "illuminance", "lx", estimate(512.34, 0.1), 480.0, 550.0}};
+    result.quantities = {{"desk", "illuminance", "lx", estimate(512.34, 0.1),
+                          optics::Colour{.x = {0.3112, 0.0001, 1.0},
+                                         .y = {0.3322, 0.0001, 1.0},
+                                         .cct_k = Uncertain{6500.0, 1.0, 1.0},
+                                         .duv = std::nullopt}}};
+    result.derived = {{"desk: uniformity U0", "illuminance uniformity, minimum / average", "1",
+                       Uncertain{0.6, 0.01, 1.0}}};
     result.flux_balance_lm.emitted = 1000.0;
     result.flux_balance_lm.absorbed = {{"floor", 333.3}, {"wall", 555.5}};
     result.flux_balance_lm.escaped = 111.1;

@@ -36,7 +36,24 @@ TEST_CASE("The report holds what the result says", "[unit][report]") {
     CHECK_THAT(quantity["expanded_uncertainty"].get<double>(), WithinRel(1.2706205, 1e-6));
     CHECK(quantity["coverage"] == 0.95);
     CHECK(quantity["phases"] == 2);
-    CHECK_THAT(quantity["x"].get<double>(), WithinRel(480.0 / 1542.34, 1e-12));
+    CHECK_THAT(quantity["x"].get<double>(), WithinRel(0.3112, 1e-12));
+    CHECK_THAT(quantity["x_expanded_uncertainty"].get<double>(), WithinRel(1.2706205e-3, 1e-6));
+    CHECK(quantity["correlated_colour_temperature_k"] == 6500.0);
+    CHECK(!quantity.contains("duv"));
+
+    const json& derived = report["derived_quantities"].at(0);
+    CHECK(derived["name"] == "desk: uniformity U0");
+    CHECK(derived["unit"] == "1");
+    CHECK_THAT(derived["expanded_uncertainty"].get<double>(), WithinRel(0.12706205, 1e-6));
+}
+
+TEST_CASE("The bias is taken off the reported value and stated beside it", "[unit][report]") {
+    optics::Result result = example_result();
+    result.quantities[0].estimate = estimate(512.0, 0.1, 2.0);
+    const json quantity = json::parse(report_json(result, {}))["quantities"].at(0);
+    CHECK_THAT(quantity["value"].get<double>(), WithinRel(510.0, 1e-12));
+    CHECK_THAT(quantity["bias"].get<double>(), WithinRel(2.0, 1e-12));
+    CHECK_THAT(quantity["uncorrected"]["value"].get<double>(), WithinRel(512.0, 1e-12));
 }
 
 TEST_CASE("The flux balance of the report closes", "[unit][report]") {

@@ -36,7 +36,8 @@ TEST_CASE("The summary shows image, quantities, losses and files", "[unit][summa
     CHECK_THAT(text, Contains("Image view: 24 x 20 pixels, noise δ = 1.9 %, kernel bias 0.4 %, "
                               "mean 962.5 ± 1.6 cd/m2"));
     CHECK_THAT(text, Contains("512.3 ± 1.3 lx"));
-    CHECK_THAT(text, Contains("x 0.3112  y 0.3322"));
+    CHECK_THAT(text, Contains("x 0.3112 ± 0.0013  y 0.3322 ± 0.0013  6500 ± 13 K"));
+    CHECK_THAT(text, Contains("desk: uniformity U0  0.60 ± 0.13"));
     CHECK_THAT(text, Contains("absorbed by wall"));
     CHECK_THAT(text, Contains("stopped by: phases\n"));
     CHECK_THAT(text, Contains("35 MB"));

@@ -179,6 +179,17 @@ TEST_CASE("A scene must be able to compute something", "[unit]") {
                           "nothing is to be computed");
 }
 
+TEST_CASE("A bound is asked of a sensor that exists, in its unit", "[unit]") {
+    const auto asked = [](const std::string& of) {
+        return replaced(good_scene, "sensors: 1%", "sensors: {" + of + "}");
+    };
+    check_refused_at_mark(asked("sopt: @1 %"), "there is no sensor 'sopt'; did you mean 'spot'?");
+    check_refused_at_mark(asked("spot: @2 lm"), "lm");
+    check_refused_at_mark(asked("spot: @2 W/m2"), "'2 W/m2' is not in % or lx");
+    check_refused_at_mark(asked("spot: @0 %"), "must be more than zero");
+    check_refused_at_mark(asked("spot: @[1 %]"), "");
+}
+
 TEST_CASE("What needs the direction up asks for it", "[unit]") {
     const std::string no_up = replaced(good_scene, "up: z\n", "");
     check_refused_at_mark(replaced(no_up, "- {name: view", "- @{name: view"),

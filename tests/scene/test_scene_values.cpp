@@ -284,6 +284,7 @@ TEST_CASE("Settings arrive", "[unit]") {
     CHECK(settings.method == Method::combined);
     CHECK(settings.image_accuracy == 0.02);
     CHECK(settings.sensor_accuracy == 0.01);
+    CHECK(settings.sensor_targets.empty());
     CHECK(settings.time_limit_s == 600.0);
     CHECK(settings.seed == 7);
     const Settings others =
@@ -308,4 +309,17 @@ TEST_CASE("The summary names what was read", "[unit]") {
     CHECK_THAT(summary, Catch::Contains("luminance meter 'meter', 2 deg"));
     CHECK_THAT(summary, Catch::Contains("flux 'through' on 'gate'"));
     CHECK_THAT(summary, Catch::Contains("warnings   0"));
+}
+
+TEST_CASE("A bound can be asked of single sensors, as a share or in their unit", "[unit]") {
+    const Settings settings =
+        read_scene_text(replaced(good_scene, "sensors: 1%",
+                                 "sensors: {spot: 2 lx, meter: 0.5 %, through: 10 mlm}"))
+            .settings;
+    CHECK_FALSE(settings.sensor_accuracy);
+    REQUIRE(settings.sensor_targets.size() == 3);
+    CHECK(settings.target_of("spot").wanted(500.0) == 2.0);
+    CHECK_THAT(settings.target_of("meter").wanted(1000.0), WithinRel(5.0, 1e-12));
+    CHECK_THAT(settings.target_of("through").wanted(7.0), WithinRel(0.01, 1e-12));
+    CHECK(settings.target_of("another").wanted(7.0) == 0.0);
 }

@@ -32,22 +32,19 @@ inline constexpr double truth_standard_error = 0.002;
 /// ... and if it then finds errors of this share, the measured kernel bias included.
 inline constexpr DetectsRelative truth_detects{0.02};
 
-/// Fails if the estimate is too weak, or differs from the truth by more than its noise and its
-/// measured kernel bias.
+/// Fails if the estimate is too weak, or its corrected value differs from the truth.
 inline void check_truth(const Estimate& estimate, double truth) {
     INFO("bias " << estimate.bias() << " +/- " << estimate.bias_standard_error() << ", "
                  << estimate.count() << " phases");
     CHECK(estimate.standard_error() <= truth_standard_error * std::abs(truth));
-    check_mean(estimate.mean(), estimate.standard_error(), truth, truth_detects,
-               std::abs(estimate.bias()));
+    check_mean(estimate.value(), estimate.standard_error(), truth, truth_detects);
 }
 
 /// The twin of check_truth(): a wrong truth must not pass.
 inline void check_refutes(const Estimate& estimate, double wrong_truth) {
-    INFO("value " << estimate.mean() << " +/- " << estimate.standard_error() << " bias "
-                  << estimate.bias() << ", wrong truth " << wrong_truth);
-    CHECK_FALSE(
-        agrees(estimate.mean(), estimate.standard_error(), wrong_truth, std::abs(estimate.bias())));
+    INFO("value " << estimate.value() << " +/- " << estimate.standard_error() << ", wrong truth "
+                  << wrong_truth);
+    CHECK_FALSE(agrees(estimate.value(), estimate.standard_error(), wrong_truth));
 }
 
 /// A functional of a result that has no error of its own, such as a mean over points or a
@@ -99,15 +96,15 @@ inline Replicates::Value mean_of_image(const optics::Image& image) {
 /// As agrees(), with Student's t for the few runs.
 inline bool agrees_over_runs(const Estimate& runs, double truth) {
     const double t = student_t(1.0 - 1e-6, static_cast<double>(runs.count() - 1));
-    return std::abs(runs.mean() - truth) <= t * runs.standard_error() + std::abs(runs.bias());
+    return std::abs(runs.value() - truth) <= t * runs.standard_error();
 }
 
 /// As check_truth(), for a value of which `runs` holds one per independent run.
 /// @param demand  largest standard error in shares of the truth.
 inline void check_truth_over_runs(const Estimate& runs, double truth,
                                   double demand = truth_standard_error) {
-    INFO("value " << runs.mean() << " +/- " << runs.standard_error() << ", truth " << truth
-                  << ", z = " << (runs.mean() - truth) / runs.standard_error() << ", bias "
+    INFO("value " << runs.value() << " +/- " << runs.standard_error() << ", truth " << truth
+                  << ", z = " << (runs.value() - truth) / runs.standard_error() << ", bias "
                   << runs.bias() << ", " << runs.count() << " runs");
     CHECK(runs.standard_error() <= demand * std::abs(truth));
     CHECK(std::abs(runs.bias()) <= 0.5 * truth_detects.fraction * std::abs(truth));
@@ -115,7 +112,7 @@ inline void check_truth_over_runs(const Estimate& runs, double truth,
 }
 
 inline void check_refutes_over_runs(const Estimate& runs, double wrong_truth) {
-    INFO("value " << runs.mean() << " +/- " << runs.standard_error() << ", wrong truth "
+    INFO("value " << runs.value() << " +/- " << runs.standard_error() << ", wrong truth "
                   << wrong_truth);
     CHECK_FALSE(agrees_over_runs(runs, wrong_truth));
 }

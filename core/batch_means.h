@@ -1,0 +1,80 @@
+// Functionals of many values that share their phases: uniformities, ratios, chromaticities.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "core/statistics.h"
+
+namespace lucerna {
+
+/// Sums of many values over batches of consecutive phases. At most 64 batches are kept: when they
+/// are full, neighbours are joined, so that memory does not grow with the number of phases.
+///
+/// A functional f(means) is taken of the means over all phases. Its standard error comes from the
+/// jackknife: f of the means without one batch, for each batch in turn, which sees all correlations
+/// of the values (Efron and Tibshirani, An Introduction to the Bootstrap, 1993, eq. 11.5). It is
+/// consistent for smooth f.
+class BatchMeans {
+public:
+    static constexpr std::size_t most_batches = 64;
+
+    explicit BatchMeans(std::size_t value_count = 0) : value_count_(value_count) {}
+
+    /// Adds the values of one phase, as many as there are.
+    void add(std::span<const double> values);
+
+    std::uint64_t phases() const { return phases_; }
+    double mean(std::size_t value) const;
+
+    /// @param functional  double(mean), where mean(i) is the mean of value number i.
+    /// Of fewer than two phases the error is infinite, and without degrees of freedom.
+    template <typename Functional>
+    Uncertain of(const Functional& functional) const {
+        Uncertain result{functional([&](std::size_t i) { return mean(i); }),
+                         std::numeric_limits<double>::infinity(), 0.0};
+        const std::size_t count = complete_batches();
+        if (count < 2) return result;
+        const auto batches = static_cast<double>(count);
+        const double phases_left = (batches - 1.0) * static_cast<double>(batch_size_);
+        double sum = 0.0;
+        double squares = 0.0;
+        for (std::size_t left_out = 0; left_out < count; ++left_out) {
+            // Differences from the value itself keep the digits of the small spread.
+            const double without =
+                functional([&](std::size_t i) {
+                    return (complete_sums_[i] - batch(left_out)[i]) / phases_left;
+                }) -
+                result.value;
+            sum += without;
+            squares += without * without;
+        }
+        const double variance = (batches - 1.0) / batches * (squares - sum * sum / batches);
+        // Phases beyond the last complete batch lower the error of the means as all others do.
+        const double share =
+            batches * static_cast<double>(batch_size_) / static_cast<double>(phases_);
+        result.standard_error = std::sqrt(std::max(0.0, variance) * share);
+        result.degrees_of_freedom = batches - 1.0;
+        return result;
+    }
+
+    std::size_t bytes() const { return sums_.capacity() * sizeof(double); }
+
+private:
+    std::size_t complete_batches() const { return phases_ / batch_size_; }
+    std::span<const double> batch(std::size_t number) const {
+        return std::span(sums_).subspan(number * value_count_, value_count_);
+    }
+
+    std::size_t value_count_;
+    std::uint64_t phases_ = 0;
+    std::uint64_t batch_size_ = 1;
+    std::vector<double> sums_;           // [batch][value]; the last batch may be incomplete
+    std::vector<double> complete_sums_;  // per value, over complete batches
+};
+
+}  // namespace lucerna

@@ -1,0 +1,97 @@
+#include "core/batch_means.h"
+
+#include <array>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "core/random.h"
+
+using namespace lucerna;
+using Catch::Matchers::WithinAbs;
+using Catch::Matchers::WithinRel;
+
+namespace {
+
+// Two values that share most of their noise, as readings that share photons do.
+std::array<double, 2> phase_values(RandomStream& random) {
+    const double shared = random.uniform() - 0.5;
+    return {10.0 + 6.0 * shared + (random.uniform() - 0.5),
+            20.0 + 12.0 * shared + 2.0 * (random.uniform() - 0.5)};
+}
+
+double ratio_of_means(auto&& mean) {
+    return mean(0) / mean(1);
+}
+
+}  // namespace
+
+TEST_CASE("The mean of one value has its usual standard error", "[unit]") {
+    const std::uint32_t phases = GENERATE(5u, 64u);
+    BatchMeans batches(1);
+    Estimate estimate;
+    RandomStream random(1, 0, RandomPurpose::test, 0);
+    for (std::uint32_t i = 0; i < phases; ++i) {
+        const double value = 3.0 + random.uniform();
+        batches.add(std::span(&value, 1));
+        estimate.add(value);
+    }
+    const Uncertain mean = batches.of([](auto&& m) { return m(0); });
+    CHECK_THAT(mean.value, WithinRel(estimate.mean(), 1e-13));
+    CHECK_THAT(mean.standard_error, WithinRel(estimate.standard_error(), 1e-10));
+    CHECK(mean.degrees_of_freedom == estimate.degrees_of_freedom());
+}
+
+TEST_CASE("Batches are joined when there are many, and no phase is lost", "[property]") {
+    const std::uint32_t phases = GENERATE(63u, 65u, 127u, 128u, 129u, 1000u, 5001u);
+    BatchMeans batches(2);
+    Estimate first;
+    RandomStream random(2, 0, RandomPurpose::test, 0);
+    for (std::uint32_t i = 0; i < phases; ++i) {
+        const auto values = phase_values(random);
+        batches.add(values);
+        first.add(values[0]);
+    }
+    CHECK(batches.phases() == phases);
+    CHECK_THAT(batches.mean(0), WithinRel(first.mean(), 1e-13));
+    const Uncertain mean = batches.of([](auto&& m) { return m(0); });
+    // 32 to 64 batches know a standard error to 13 % (one standard deviation); five of it.
+    CHECK_THAT(mean.standard_error, WithinRel(first.standard_error(), 0.65));
+    CHECK(mean.degrees_of_freedom >= 31.0);
+    CHECK(batches.bytes() <= 2 * 2 * BatchMeans::most_batches * sizeof(double));
+}
+
+TEST_CASE("The error of a ratio of values that share their noise covers", "[statistical]") {
+    int covered = 0;
+    int covered_if_independent = 0;
+    const int runs = 2000;
+    RandomStream random(3, 0, RandomPurpose::test, 0);
+    for (int run = 0; run < runs; ++run) {
+        BatchMeans batches(2);
+        Estimate a;
+        Estimate b;
+        for (int phase = 0; phase < 90; ++phase) {
+            const auto values = phase_values(random);
+            batches.add(values);
+            a.add(values[0]);
+            b.add(values[1]);
+        }
+        const Uncertain ratio = batches.of([](auto&& m) { return ratio_of_means(m); });
+        if (std::abs(ratio.value - 0.5) <= ratio.expanded_uncertainty()) ++covered;
+        // The twin that must fail: errors added as if they were independent.
+        const double independent =
+            ratio.value * std::hypot(a.standard_error() / a.mean(), b.standard_error() / b.mean());
+        if (std::abs(ratio.value - 0.5) <= 1.96 * independent) ++covered_if_independent;
+    }
+    CHECK_THAT(covered / static_cast<double>(runs),
+               WithinAbs(0.95, 4.9 * std::sqrt(0.95 * 0.05 / runs)));
+    CHECK(covered_if_independent == runs);  // much too wide
+}
+
+TEST_CASE("One phase has no error", "[unit]") {
+    BatchMeans batches(1);
+    const double value = 2.0;
+    batches.add(std::span(&value, 1));
+    const Uncertain mean = batches.of([](auto&& m) { return m(0); });
+    CHECK(mean.value == 2.0);
+    CHECK(std::isinf(mean.expanded_uncertainty()));
+}

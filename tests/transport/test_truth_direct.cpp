@@ -122,6 +122,40 @@ TEST_CASE("Direct light: a square luminaire by Lambert's formula", "[analytic]")
     }
 }
 
+TEST_CASE("Direct light: more lights than are drawn at once", "[analytic]") {
+    // Of many lights only some are drawn, by their flux: points, and two panels by Lambert's
+    // formula.
+    const auto method = GENERATE(Method::combined, Method::path);
+    SceneBuilder scene;
+    const auto polygon_1 = test::truth::corners({-0.3, -0.5, 1.5}, {0, 1, 0}, {0.8, 0, 0});
+    const auto polygon_2 = test::truth::corners({-1.5, -0.5, 1.2}, {0, 0.3, 0}, {0.3, 0, 0});
+    const Rectangle panel_1{polygon_1[0], {0, 1, 0}, {0.8, 0, 0}};
+    const Rectangle panel_2{polygon_2[0], {0, 0.3, 0}, {0.3, 0, 0}};
+    scene.area_light(scene.object("lamp", panel_1, scene.black()), 2000.0);
+    scene.area_light(scene.object("small", panel_2, scene.black()), 8000.0);
+    std::vector<double> truths(floor_points.size());
+    for (std::size_t i = 0; i < floor_points.size(); ++i) {
+        truths[i] = polygon_illuminance(polygon_1, 2000.0, floor_points[i], Vec3::UnitZ()) +
+                    polygon_illuminance(polygon_2, 8000.0, floor_points[i], Vec3::UnitZ());
+    }
+    for (int k = 0; k < 10; ++k) {
+        const double flux_lm = 300.0 * (k + 1);
+        const Vec3 position(std::cos(k), std::sin(k), 0.7 + 0.04 * k);  // below the panels
+        scene.light("point", PointLight{position}, flux_lm);
+        for (std::size_t i = 0; i < floor_points.size(); ++i) {
+            const Vec3 to_light = position - floor_points[i];
+            truths[i] += flux_lm / (4.0 * pi) * to_light.z() / std::pow(to_light.norm(), 3);
+        }
+    }
+    scene.object("floor", Rectangle{{-5, -5, 0}, {10, 0, 0}, {0, 10, 0}}, scene.diffuse(0.4));
+    scene.points(floor_points, Vec3::UnitZ());
+    const Result result = test::run(scene, method, {32, 100});
+    for (std::size_t i = 0; i < floor_points.size(); ++i) {
+        test::check_truth(result.quantities[i].estimate, truths[i]);
+        test::check_refutes(result.quantities[i].estimate, 1.02 * truths[i]);
+    }
+}
+
 TEST_CASE("Direct light: a rectangle that is partly behind the horizon", "[analytic]") {
     const double luminance = 2000.0;
     SceneBuilder scene;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/random.h"
+#include "tests/support/chi_square.h"
 
 using namespace lucerna;
 using Catch::Matchers::WithinAbs;
@@ -17,15 +18,10 @@ namespace {
 
 constexpr int sample_count = 200000;
 
-// Quantile of chi-square for a chance of 1e-6 above it (Wilson and Hilferty 1931), z = 4.753.
-double chi_square_limit(double degrees) {
-    const double a = 2.0 / (9.0 * degrees);
-    return degrees * std::pow(1.0 - a + 4.753 * std::sqrt(a), 3);
-}
-
-// Chi-square of points (a, b) in [0, 1)^2 over 16 x 16 cells, all of which must be equally likely.
-double chi_square_of_equal_cells(const std::function<std::array<double, 2>(double, double)>& map) {
-    std::array<int, 256> counts{};
+// Chi-square, as a standard normal deviate, of points (a, b) in [0, 1)^2 over 16 x 16 cells, all of
+// which must be equally likely.
+double equal_cells_deviate(const std::function<std::array<double, 2>(double, double)>& map) {
+    std::vector<double> counts(256);
     RandomStream random(21, 0, RandomPurpose::test, 0);
     for (int i = 0; i < sample_count; ++i) {
         const double u1 = random.uniform();
@@ -36,12 +32,9 @@ double chi_square_of_equal_cells(const std::function<std::array<double, 2>(doubl
         const auto cell = [](double x) {
             return static_cast<std::size_t>(std::min(x * 16.0, 15.0));
         };
-        ++counts[cell(a) * 16 + cell(b)];
+        counts[cell(a) * 16 + cell(b)] += 1.0;
     }
-    const double expected = sample_count / 256.0;
-    double sum = 0.0;
-    for (const int count : counts) sum += (count - expected) * (count - expected) / expected;
-    return sum;
+    return test::chi_square_deviate(counts, std::vector<double>(256, sample_count / 256.0));
 }
 
 // Azimuth in [0, 1)
@@ -54,48 +47,63 @@ double azimuth(double x, double y) {
 
 TEST_CASE("Directions on the hemisphere follow the cosine", "[statistical]") {
     // P(theta < t) = sin^2 t for density cos / pi, so that sin^2 theta is uniform.
-    CHECK(chi_square_of_equal_cells([](double u1, double u2) {
+    CHECK(equal_cells_deviate([](double u1, double u2) {
               const Vec3 d = sample_cosine_hemisphere(u1, u2);
               REQUIRE_THAT(d.norm(), WithinRel(1.0, 1e-12));
               REQUIRE(d.z() >= 0.0);
               return std::array{1.0 - d.z() * d.z(), azimuth(d.x(), d.y())};
-          }) < chi_square_limit(255.0));
+          }) < test::chi_square_limit);
     // Twin: without the cosine sin^2 theta is not uniform.
-    CHECK(chi_square_of_equal_cells([](double u1, double u2) {
+    CHECK(equal_cells_deviate([](double u1, double u2) {
               const Vec3 d = sample_cone(0.0, u1, u2);
               return std::array{1.0 - d.z() * d.z(), azimuth(d.x(), d.y())};
-          }) > chi_square_limit(255.0));
+          }) > test::chi_square_limit);
 }
 
 TEST_CASE("Directions on the sphere are uniform", "[statistical]") {
     // By Archimedes z is uniform.
-    CHECK(chi_square_of_equal_cells([](double u1, double u2) {
+    CHECK(equal_cells_deviate([](double u1, double u2) {
               const Vec3 d = sample_sphere(u1, u2);
               REQUIRE_THAT(d.norm(), WithinRel(1.0, 1e-12));
               return std::array{0.5 * (d.z() + 1.0), azimuth(d.x(), d.y())};
-          }) < chi_square_limit(255.0));
+          }) < test::chi_square_limit);
+    // Twin: equal steps of the polar angle crowd the poles.
+    CHECK(equal_cells_deviate([](double u1, double u2) {
+              return std::array{0.5 * (std::cos(pi * u1) + 1.0), u2};
+          }) > test::chi_square_limit);
 }
 
 TEST_CASE("Directions in a cone are uniform, also in a narrow one", "[statistical]") {
     const double half_angle_rad = GENERATE(1e-5, 0.2, 1.5, 2.5);
     // 1 - cos without cancellation, by the test itself
     const double height = 2.0 * std::pow(std::sin(0.5 * half_angle_rad), 2);
-    CHECK(chi_square_of_equal_cells([&](double u1, double u2) {
+    CHECK(equal_cells_deviate([&](double u1, double u2) {
               const Vec3 d = sample_cone(std::cos(half_angle_rad), u1, u2);
               REQUIRE_THAT(d.norm(), WithinRel(1.0, 1e-12));
               const double theta_rad = std::atan2(std::hypot(d.x(), d.y()), d.z());
               const double part = 2.0 * std::pow(std::sin(0.5 * theta_rad), 2) / height;
               REQUIRE(part < 1.0 + 1e-6);
               return std::array{part, azimuth(d.x(), d.y())};
-          }) < chi_square_limit(255.0));
+          }) < test::chi_square_limit);
+    // Twin: a cone that is 5 % too wide.
+    CHECK(equal_cells_deviate([&](double u1, double u2) {
+              const Vec3 d = sample_cone(std::cos(1.05 * half_angle_rad), u1, u2);
+              const double theta_rad = std::atan2(std::hypot(d.x(), d.y()), d.z());
+              const double part = 2.0 * std::pow(std::sin(0.5 * theta_rad), 2) / height;
+              return std::array{std::min(part, 1.0), azimuth(d.x(), d.y())};
+          }) > test::chi_square_limit);
 }
 
 TEST_CASE("Points in the disk are uniform", "[statistical]") {
-    CHECK(chi_square_of_equal_cells([](double u1, double u2) {
+    CHECK(equal_cells_deviate([](double u1, double u2) {
               const Vec2 p = sample_disk(u1, u2);
               REQUIRE(p.norm() < 1.0 + 1e-12);
               return std::array{p.squaredNorm(), azimuth(p.x(), p.y())};
-          }) < chi_square_limit(255.0));
+          }) < test::chi_square_limit);
+    // Twin: equal steps of the radius crowd the centre.
+    CHECK(equal_cells_deviate([](double u1, double u2) {
+              return std::array{u1 * u1, u2};
+          }) > test::chi_square_limit);
     CHECK(sample_disk(0.5, 0.5) == Vec2(0.0, 0.0));
 }
 
@@ -156,14 +164,12 @@ TEST_CASE("The rest of a number after a choice is uniform again", "[statistical]
         REQUIRE(rest < 1.0);
         ++counts[index][static_cast<std::size_t>(rest * 10.0)];
     }
-    double chi_square = 0.0;
+    std::vector<double> counted, expected;
     for (const std::size_t index : {0u, 2u, 3u}) {
-        const double expected = sample_count * weights[index] / 100.0;
-        for (const int count : counts[index]) {
-            chi_square += (count - expected) * (count - expected) / expected;
-        }
+        counted.insert(counted.end(), counts[index].begin(), counts[index].end());
+        expected.insert(expected.end(), 10, sample_count * weights[index] / 100.0);
     }
-    CHECK(chi_square < chi_square_limit(29.0));
+    test::check_follows(counted, expected);
     CHECK(counts[1] == std::array<int, 10>{});
 }
 

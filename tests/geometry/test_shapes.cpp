@@ -1,7 +1,9 @@
 #include <catch2/catch.hpp>
+#include <functional>
 
 #include "optics/geometry/shape_parts.h"
 #include "shapes_for_tests.h"
+#include "tests/support/chi_square.h"
 
 namespace lucerna::optics {
 
@@ -239,6 +241,89 @@ TEST_CASE("Samples are uniform on the surface and within its bounds", "[statisti
         box.extend(box.max() + Vec3::Constant(1e-12));
         CHECK(box.contains(seen));
         CHECK((box.sizes() - seen.sizes()).maxCoeff() < 0.05);
+    }
+}
+
+TEST_CASE("Samples of a shape follow its area", "[statistical]") {
+    // Each map takes equal areas of the surface to equal areas of the unit square.
+    using Map = std::function<std::array<double, 2>(const SurfacePoint&)>;
+    const auto turns = [](double x, double y) { return std::atan2(y, x) / (2.0 * pi) + 0.5; };
+    const Rectangle rectangle{{1, 2, 3}, {0, 0.7, 0}, {0, 0, 1.1}};
+    const Disk annulus{{1, 2, 3}, {0, 0, 1}, 0.5, 0.2};
+    const Sphere sphere{{1, 2, 3}, 0.4};
+    const Cylinder cylinder{{0, 0, 1}, {0, 0, 1.8}, 0.3};  // sides 2 r h, ends r^2 each, times pi
+    const Tube tube{{0, 0, 1}, {0, 0, 1.8}, 0.3, 0.1};
+    const Box box{general_placement(), {0.5, 0.8, 0.3}};
+    const MeshInstance triangle{prepare_mesh({{0, 0, 0}, {2, 0, 0}, {0.5, 1, 0}}, {{0, 1, 2}}),
+                                Placement::Identity()};
+    // Patches of the areas one behind the other, `part` of the way through the one of the number.
+    const auto behind = [](const std::vector<double>& areas, std::uint32_t number, double part) {
+        const auto first = areas.begin() + number;
+        return (std::accumulate(areas.begin(), first, 0.0) + part * *first) /
+               std::accumulate(areas.begin(), areas.end(), 0.0);
+    };
+    const auto along = [](const SurfacePoint& p) { return (p.position.z() - 1.0) / 0.8; };
+    const std::vector<std::pair<Shape, Map>> shapes = {
+        {rectangle,
+         [](const auto& p) {
+             return std::array{(p.position.y() - 2.0) / 0.7, (p.position.z() - 3.0) / 1.1};
+         }},
+        {annulus,
+         [&](const auto& p) {
+             const Vec3 d = p.position - annulus.centre;
+             return std::array{(d.squaredNorm() - 0.04) / 0.21, turns(d.x(), d.y())};
+         }},
+        {sphere,
+         [&](const auto& p) {
+             const Vec3 d = (p.position - sphere.centre) / 0.4;
+             return std::array{0.5 * (d.z() + 1.0), turns(d.x(), d.y())};
+         }},
+        {cylinder,
+         [&](const auto& p) {
+             const double r2 = p.position.x() * p.position.x() + p.position.y() * p.position.y();
+             return std::array{behind({0.48, 0.09, 0.09}, p.patch, p.patch ? r2 / 0.09 : along(p)),
+                               turns(p.position.x(), p.position.y())};
+         }},
+        {tube,
+         [&](const auto& p) {
+             const double r2 = p.position.x() * p.position.x() + p.position.y() * p.position.y();
+             return std::array{behind({0.48, 0.16, 0.08, 0.08}, p.patch,
+                                      p.patch > 1 ? (r2 - 0.01) / 0.08 : along(p)),
+                               turns(p.position.x(), p.position.y())};
+         }},
+        {box,
+         [&](const auto& p) {
+             const Vec3 q = (box.placement.inverse() * p.position).cwiseQuotient(box.size_m);
+             const auto axis = static_cast<Eigen::Index>(p.patch / 2);
+             return std::array{
+                 behind({0.24, 0.24, 0.15, 0.15, 0.4, 0.4}, p.patch, q[(axis + 1) % 3]),
+                 q[(axis + 2) % 3]};
+         }},
+        {triangle, [](const auto& p) {
+             // Share c of the third corner, and of the second in the rest.
+             const double c = p.position.y(), b = (p.position.x() - 0.5 * c) / 2.0;
+             return std::array{1.0 - (1.0 - c) * (1.0 - c), b / (1.0 - c)};
+         }}};
+    for (const auto& [shape, map] : shapes) {
+        CAPTURE(shape.index());
+        constexpr int side = 10, n = 40'000;
+        RandomStream random = test_stream(29);
+        std::vector<double> counts(side * side), crowded = counts;
+        const auto count = [&](std::vector<double>& cells, double u1, double u2) {
+            const auto [a, b] = map(sample_area(shape, u1, u2));
+            const auto step = [](double x) {
+                return std::clamp(static_cast<int>(x * side), 0, side - 1);
+            };
+            cells[static_cast<std::size_t>(step(a) * side + step(b))] += 1.0;
+        };
+        for (int i = 0; i < n; ++i) {
+            const double u1 = random.uniform(), u2 = random.uniform();
+            count(counts, u1, u2);
+            count(crowded, std::pow(u1, 1.2), u2);  // the twin
+        }
+        const std::vector<double> even(counts.size(), n / static_cast<double>(side * side));
+        test::check_follows(counts, even);
+        CHECK(test::chi_square_deviate(crowded, even) > test::chi_square_limit);
     }
 }
 

@@ -1,4 +1,4 @@
-// Shared by the tests of lights: random numbers, means, and the chi-square statistic.
+// Shared by the tests of lights: random numbers and means.
 #pragma once
 
 #include <array>
@@ -10,6 +10,7 @@
 #include "core/random.h"
 #include "core/vector.h"
 #include "tests/support/check_mean.h"
+#include "tests/support/chi_square.h"
 
 namespace lucerna::test {
 
@@ -34,26 +35,6 @@ inline Mean mean_of(std::uint32_t n, const std::function<double(const std::array
     }
     const double mean = sum / n;
     return {mean, std::sqrt(std::max(0.0, squares / n - mean * mean) / (n - 1))};
-}
-
-/// Chi-square of counts against expected counts, as a standard normal deviate
-/// (Wilson and Hilferty, 1931); cells below 5 expected counts are merged.
-inline double chi_square_deviate(const std::vector<double>& counts,
-                                 const std::vector<double>& expected) {
-    double chi2 = 0.0;
-    double degrees = -1.0;
-    double count = 0.0;
-    double mean = 0.0;
-    for (std::size_t i = 0; i < counts.size(); ++i) {
-        count += counts[i];
-        mean += expected[i];
-        if (mean < 5.0) continue;
-        chi2 += (count - mean) * (count - mean) / mean;
-        degrees += 1.0;
-        count = mean = 0.0;
-    }
-    const double spread = 2.0 / (9.0 * degrees);
-    return (std::cbrt(chi2 / degrees) - (1.0 - spread)) / std::sqrt(spread);
 }
 
 }  // namespace lucerna::test

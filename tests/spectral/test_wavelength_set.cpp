@@ -11,6 +11,7 @@
 #include "spectral/illuminants.h"
 #include "tests/spectral/reference_table.h"
 #include "tests/support/check_mean.h"
+#include "tests/support/chi_square.h"
 
 using namespace lucerna;
 using namespace lucerna::spectral;
@@ -203,9 +204,8 @@ TEST_CASE("The hero lane alone estimates luminance without bias", "[statistical]
 
 TEST_CASE("Hero and shift are uniform and independent over phases and seeds", "[statistical]") {
     const WavelengthSampler sampler(Spectrum(1.0));
-    // Chi-square over 16 heroes x 4 quarters of the shift, 6400 seeds: 63 degrees of freedom.
-    // alpha = 1e-6: 63 + 4.75 sqrt(126) + ... = 128 (Wilson-Hilferty).
-    std::array<int, 64> counts{};
+    // 16 heroes x 4 quarters of the shift
+    std::vector<double> counts(64);
     const bool over_seeds = GENERATE(false, true);
     for (std::uint32_t i = 0; i < 6400; ++i) {
         const WavelengthSet set = over_seeds ? sampler.sample(i, 5) : sampler.sample(5, i);
@@ -215,11 +215,50 @@ TEST_CASE("Hero and shift are uniform and independent over phases and seeds", "[
             probability += sampler.pdf_per_nm(360.0 + (k + 0.5) * width_nm) * width_nm;
         }
         const int quarter = std::clamp(static_cast<int>(probability * 64.0), 0, 3);
-        ++counts[static_cast<std::size_t>(set.hero * 4 + quarter)];
+        counts[static_cast<std::size_t>(set.hero * 4 + quarter)] += 1.0;
     }
-    double chi_square = 0.0;
-    for (const int count : counts) chi_square += (count - 100.0) * (count - 100.0) / 100.0;
-    CHECK(chi_square < 128.0);
+    test::check_follows(counts, std::vector<double>(64, 100.0));
+}
+
+TEST_CASE("The hero's wavelength follows the density that the header states", "[statistical]") {
+    // Over seeds these are independent. For equal energy the density is
+    // a V + b (x + y + z) + (c + d) / 470 nm, each of area 1, here from the tables read by the
+    // test.
+    const auto [dispersion, a, b] = GENERATE(table<Dispersion, double, double>(
+        {{Dispersion::none, 0.40, 0.40}, {Dispersion::present, 0.80, 0.10}}));
+    const auto cmf = reference_table("cie1931_2deg_cmf_1nm.csv");
+    const auto v = reference_table("cie1924_V_1nm.csv").at("V");
+    constexpr int cells = 94, nm_per_cell = 5, seeds = 100'000;
+    const auto expected = [&](double of_v, double of_colour) {
+        std::vector<double> eye(cells), colour(cells), counts(cells);
+        double eye_area = 0.0, colour_area = 0.0;
+        for (int nm = 360; nm < 830; ++nm) {
+            const auto cell = static_cast<std::size_t>((nm - 360) / nm_per_cell);
+            for (const int node : {nm, nm + 1}) {  // trapezoid
+                const double all =
+                    cmf.at("xbar").at(node) + cmf.at("ybar").at(node) + cmf.at("zbar").at(node);
+                eye[cell] += 0.5 * v.at(node);
+                eye_area += 0.5 * v.at(node);
+                colour[cell] += 0.5 * all;
+                colour_area += 0.5 * all;
+            }
+        }
+        for (std::size_t i = 0; i < counts.size(); ++i) {
+            counts[i] = seeds * (of_v * eye[i] / eye_area + of_colour * colour[i] / colour_area +
+                                 (1.0 - of_v - of_colour) / cells);
+        }
+        return counts;
+    };
+    const WavelengthSampler sampler(Spectrum(1.0), dispersion);
+    std::vector<double> counts(cells);
+    for (std::uint64_t seed = 0; seed < seeds; ++seed) {
+        const WavelengthSet set = sampler.sample(seed, 3);
+        const double nm = set.wavelength_nm[static_cast<std::size_t>(set.hero)];
+        counts[std::min<std::size_t>(cells - 1,
+                                     static_cast<std::size_t>((nm - 360.0) / nm_per_cell))] += 1.0;
+    }
+    test::check_follows(counts, expected(a, b));
+    test::check_refutes(counts, expected(a, b), expected(a + 0.06, b - 0.06));  // the twin
 }
 
 TEST_CASE("A set depends on seed and phase only", "[property]") {

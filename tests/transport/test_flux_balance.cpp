@@ -30,6 +30,25 @@ TEST_CASE("The flux balance closes", "[unit]") {
     CHECK(flux.trapped == 0.0);
 }
 
+TEST_CASE("Each of several lights brings its own flux", "[analytic]") {
+    // Beams onto plates of their own.
+    test::SceneBuilder scene;
+    const std::vector<double> fluxes_lm{200.0, 300.0, 500.0};
+    for (std::size_t i = 0; i < fluxes_lm.size(); ++i) {
+        const Vec3 place(static_cast<double>(i), 0.0, 0.0);
+        const Vec3 down = -Vec3::UnitZ();
+        scene.light("beam", BeamLight{Disk{place + Vec3::UnitZ(), down, 0.1}, down}, fluxes_lm[i]);
+        scene.receiver(scene.object("plate", Disk{place, Vec3::UnitZ(), 0.2}, scene.black()));
+    }
+    const Result result = run(scene.parts, 40, 60000);
+    CHECK_THAT(result.flux_balance_lm.emitted, Catch::Matchers::WithinRel(1000.0, 5e-3));
+    for (std::size_t i = 0; i < fluxes_lm.size(); ++i) {
+        const Estimate& received = result.quantities[2 * i].estimate;
+        test::check_mean(received.mean(), received.standard_error(), fluxes_lm[i], {0.02});
+        CHECK_FALSE(test::agrees(received.mean(), received.standard_error(), 1000.0 / 3.0));
+    }
+}
+
 TEST_CASE("A long rod loses nothing that is not accounted for", "[analytic]") {
     // A collimated beam enters the end face of a rod of 1 m length and 0.1 mm radius and runs at
     // the internal angle b, sin b = sin a / n: a meridional ray is reflected tan(b) / 0.2 mm = 2377

@@ -16,7 +16,9 @@ declare -A arrows=(
     [optics]="optics/detector optics/light optics/material optics/geometry spectral core"
     [optics/transport]="$optics_rooms spectral core"
     [io]="optics/transport $optics_rooms spectral core"
-    [validation]="io optics/transport $optics_rooms spectral core"
+    [validation/truth]="spectral core"
+    [validation/cases]="validation validation/truth $optics_rooms optics/transport spectral core"
+    [validation]="validation/truth io optics/transport $optics_rooms spectral core"
     [cli]="validation io optics/transport $optics_rooms spectral core"
 )
 
@@ -32,7 +34,7 @@ libraries=(
     "Imath io/exr.cpp"
     "OpenColorIO/ io/display_encoding.cpp"
     "png.h io/raster.cpp"
-    "nlohmann/ io/report.cpp"
+    "nlohmann/ @(io/report|validation/report_json).cpp"
     "pugixml io/bsdf_xml.cpp"
     "yaml-cpp/ io/yaml_tree.*"
     "CLI/ cli/main.cpp"

@@ -1,9 +1,11 @@
 // Two grey Cornell boxes of one metre (y up, front open), diffuse and with caustics.
 #pragma once
 
-#include "tests/support/scene_builder.h"
+#include "validation/scene_builder.h"
 
 namespace lucerna::test {
+
+using validation::SceneBuilder;
 
 inline void cornell_room(SceneBuilder& scene, double light_side_m, double luminance, int pixels) {
     using optics::Rectangle;

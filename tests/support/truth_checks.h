@@ -4,9 +4,11 @@
 #include "core/parallel.h"
 #include "optics/transport/simulate.h"
 #include "tests/support/check_mean.h"
-#include "tests/support/scene_builder.h"
+#include "validation/scene_builder.h"
 
 namespace lucerna::test {
+
+using validation::SceneBuilder;
 
 /// What a run costs.
 struct Effort {

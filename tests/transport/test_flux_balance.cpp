@@ -57,7 +57,7 @@ TEST_CASE("A long rod loses nothing that is not accounted for", "[analytic]") {
     const double n = 1.5;
     const double a = 0.7;
     const double b = std::asin(std::sin(a) / n);
-    test::SceneBuilder scene;
+    validation::SceneBuilder scene;
     scene.solid("rod", Cylinder{{0, 0, 0}, {0, 0, 1.0}, 0.0001}, scene.medium(n));
     const Vec3 direction = Vec3(std::sin(a), 0.0, std::cos(a));
     scene.light("beam", BeamLight{Disk{-0.001 * direction, direction, 0.00004}, direction}, 100.0);
@@ -89,7 +89,7 @@ TEST_CASE("A lossless rod holds part of an isotropic emitter for ever", "[analyt
     // On the axis only meridional rays: those between the critical angle of the side, theta > 90
     // deg - critical, and of the end, theta > critical, are held: cos theta in (cos(90 - c), cos
     // c), on both halves of the sphere. n = 1.49: c = 42.16 deg, cos c - sin c = 0.0701.
-    test::SceneBuilder scene;
+    validation::SceneBuilder scene;
     const double n = 1.49;
     scene.solid("rod", Cylinder{{0, 0, 0}, {0, 0, 0.2}, 0.005}, scene.medium(n));
     scene.light("point", PointLight{{0, 0, 0.1}}, 100.0);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int pixels = 64;
 
-Image render(const test::SceneBuilder& scene, Method method, PlantedError planted,
+Image render(const validation::SceneBuilder& scene, Method method, PlantedError planted,
              std::uint32_t phases) {
     Settings settings;
     settings.method = method;

@@ -1,12 +1,12 @@
 // Direct light of rectangles and of measured luminaires, and absorption on its way.
 #include "tests/support/truth_checks.h"
-#include "tests/transport/truth/polygon_light.h"
-#include "tests/transport/truth/quadrature.h"
+#include "validation/truth/polygon_light.h"
+#include "validation/truth/quadrature.h"
 
 using namespace lucerna;
 using namespace lucerna::optics;
-using test::SceneBuilder;
-using test::truth::polygon_illuminance;
+using validation::SceneBuilder;
+using truth::polygon_illuminance;
 
 namespace {
 
@@ -63,11 +63,11 @@ double intensity_toward(const Vec3& direction) {
 double total_flux_lm() {
     double flux = 0.0;
     for (std::size_t i = 1; i < c_deg.size(); ++i) {
-        flux += test::truth::integral(
+        flux += truth::integral(
             [&](double c) {
                 double of_plane = 0.0;
                 for (std::size_t g = 1; g < gamma_deg.size(); ++g) {
-                    of_plane += test::truth::integral(
+                    of_plane += truth::integral(
                         [&](double gamma) {
                             return intensity_cd(c, gamma) * std::sin(gamma * rad_per_deg) *
                                    rad_per_deg;
@@ -109,7 +109,7 @@ TEST_CASE("Direct light: a square luminaire by Lambert's formula", "[analytic]")
     scene.object("floor", Rectangle{{-5, -5, 0}, {10, 0, 0}, {0, 10, 0}}, scene.diffuse(rho));
     scene.points(floor_points, Vec3::UnitZ());
     for (const Vec3& point : floor_points) scene.meter({0.2, 0.2, 1.0}, point, 0.01);
-    const auto polygon = test::truth::corners(corner, u, v);
+    const auto polygon = truth::corners(corner, u, v);
     const Result result = test::run(scene, method, {64, 100});
     INFO("method " << static_cast<int>(method));
     for (std::size_t i = 0; i < floor_points.size(); ++i) {
@@ -167,7 +167,7 @@ TEST_CASE("Direct light: a rectangle that is partly behind the horizon", "[analy
     const std::vector<Vec3> positions{{-1.5, 0.2, 0.8}, {0.2, 0.1, 1.1}};
     scene.points(positions, slanted);
     const Result result = test::run(scene, Method::combined, {96, 100});
-    const auto polygon = test::truth::corners(corner, u, v);
+    const auto polygon = truth::corners(corner, u, v);
     for (std::size_t i = 0; i < positions.size(); ++i) {
         const double truth = polygon_illuminance(polygon, luminance, positions[i], slanted);
         test::check_truth(result.quantities[i].estimate, truth);
@@ -270,9 +270,9 @@ TEST_CASE("Direct light: absorption on a straight way", "[analytic]") {
             return rho / pi * intensity / std::pow(distance_m, 3) *
                    std::exp(-absorption * thickness_m * distance_m);
         };
-        const double integral = test::truth::integral(
+        const double integral = truth::integral(
             [&](double x) {
-                return test::truth::integral([&](double y) { return luminance(x, y); },
+                return truth::integral([&](double y) { return luminance(x, y); },
                                              -half_width_m, half_width_m, 1);
             },
             -half_width_m, half_width_m, 1);

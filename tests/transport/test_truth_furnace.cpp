@@ -5,7 +5,7 @@
 
 using namespace lucerna;
 using namespace lucerna::optics;
-using test::SceneBuilder;
+using validation::SceneBuilder;
 
 namespace {
 

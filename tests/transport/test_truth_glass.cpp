@@ -5,14 +5,14 @@
 // here says by how much.
 #include "spectral/observer.h"
 #include "tests/support/truth_checks.h"
-#include "tests/transport/truth/luminance_weights.h"
-#include "tests/transport/truth/quadrature.h"
-#include "tests/transport/truth/slab.h"
+#include "validation/truth/luminance_weights.h"
+#include "validation/truth/quadrature.h"
+#include "validation/truth/slab.h"
 
 using namespace lucerna;
 using namespace lucerna::optics;
-using test::SceneBuilder;
-using test::truth::unpolarised_transmittance;
+using validation::SceneBuilder;
+using truth::unpolarised_transmittance;
 
 namespace {
 
@@ -71,17 +71,17 @@ TEST_CASE("Slab: luminance through clear and absorbing glass", "[analytic]") {
         INFO("absorption " << depth << " angle " << angles_deg[i]);
         const Estimate& estimate = result.quantities[i].estimate;
         test::check_truth(estimate, luminance * unpolarised_transmittance(n, angle_rad, depth));
-        const double reflectance = test::truth::boundary(n, angle_rad).mean();
+        const double reflectance = truth::boundary(n, angle_rad).mean();
         // One boundary only; one boundary too many; the n^2 of the inside.
         const double single =
-            luminance * (1.0 - reflectance) * test::truth::passage(n, angle_rad, depth);
+            luminance * (1.0 - reflectance) * truth::passage(n, angle_rad, depth);
         test::check_refutes(estimate, single);
         test::check_refutes(estimate, single / (n * n));
         if (angles_deg[i] == 75.0) {
             // No internal reflections; and polarised light, which the engine does not follow.
             test::check_refutes(estimate, single * (1.0 - reflectance));
             test::check_refutes(
-                estimate, luminance * test::truth::polarised_transmittance(n, angle_rad, depth));
+                estimate, luminance * truth::polarised_transmittance(n, angle_rad, depth));
         }
     }
 }
@@ -98,7 +98,7 @@ TEST_CASE("Slab: a meter inside glass reads n^2 (1 - R) L", "[analytic]") {
     const Result result = test::run(scene, Method::combined, {64, 100});
     for (std::size_t i = 0; i < angles_rad.size(); ++i) {
         const double outside_rad = std::asin(std::min(1.0, n * std::sin(angles_rad[i])));
-        const double reflectance = test::truth::boundary(n, outside_rad).mean();
+        const double reflectance = truth::boundary(n, outside_rad).mean();
         // Light that the upper boundary sends back adds R^2, R^4 ...: (1 - R) / (1 - R^2).
         const double truth = n * n * luminance / (1.0 + reflectance);
         test::check_truth(result.quantities[i].estimate, truth);
@@ -123,7 +123,7 @@ TEST_CASE("Slab: flux of a Lambertian source", "[analytic]") {
     // The normal of the sheet points down, toward the lamp. What passes beside it is the light
     // within 4 mrad of the horizon: 2e-5.
     const auto mean_transmittance = [&](auto&& transmittance) {
-        return test::truth::integral(
+        return truth::integral(
             [&](double angle_rad) { return transmittance(angle_rad) * std::sin(2.0 * angle_rad); },
             0.0, 0.5 * pi);
     };
@@ -168,9 +168,9 @@ TEST_CASE("Slab: luminance and colour through dispersive glass", "[analytic]") {
         const auto transmittance = [&](double nm) {
             return unpolarised_transmittance(index_at(nm), angles_rad[i]);
         };
-        const double y = test::truth::luminous_mean(transmittance);
-        const double x = test::truth::weighted_mean(spectral::x_bar(), transmittance);
-        const double z = test::truth::weighted_mean(spectral::z_bar(), transmittance);
+        const double y = truth::luminous_mean(transmittance);
+        const double x = truth::weighted_mean(spectral::x_bar(), transmittance);
+        const double z = truth::weighted_mean(spectral::z_bar(), transmittance);
         INFO("steep " << steep << " angle " << angles_rad[i]);
         test::check_truth_over_runs(runs[3 * i], luminance * y);
         // X, Y and Z of an equal-energy spectrum are alike. Few phases have their wavelength in
@@ -206,7 +206,7 @@ SceneBuilder ball_in_furnace(bool disperses) {
 }
 
 double mean_squared_index(bool disperses) {
-    return test::truth::luminous_mean(
+    return truth::luminous_mean(
         [&](double nm) { return std::pow(ball_index_at(disperses, nm), 2); });
 }
 

@@ -1,11 +1,11 @@
 // Image sources: a plane mirror of reflectance 0.9 adds 0.9 of the light of the mirrored source.
 #include "tests/support/truth_checks.h"
-#include "tests/transport/truth/polygon_light.h"
-#include "tests/transport/truth/quadrature.h"
+#include "validation/truth/polygon_light.h"
+#include "validation/truth/quadrature.h"
 
 using namespace lucerna;
 using namespace lucerna::optics;
-using test::SceneBuilder;
+using validation::SceneBuilder;
 
 namespace {
 
@@ -63,9 +63,9 @@ double mean(bool camera, const Illuminance& illuminance) {
         for (const Vec3& x : grid()) sum += illuminance(x) / static_cast<double>(grid().size());
         return sum;
     }
-    const double integral = test::truth::integral(
+    const double integral = truth::integral(
         [&](double s) {
-            return test::truth::integral(
+            return truth::integral(
                 [&](double t) { return illuminance(middle + Vec3(s, t, 0.0)); }, -half_width_m,
                 half_width_m, 2);
         },
@@ -105,12 +105,12 @@ TEST_CASE("Image source: a rectangle before a mirror", "[analytic]") {
     const Vec3 v(0.3, 0.0, 0.0);
     SceneBuilder scene = with_mirror(camera);
     scene.area_light(scene.object("lamp", Rectangle{corner, u, v}, scene.black()), luminance);
-    const auto polygon = test::truth::corners(corner, u, v);
+    const auto polygon = truth::corners(corner, u, v);
     std::vector<Vec3> image_polygon;
     for (const Vec3& p : polygon) image_polygon.push_back(mirrored(p));
     const auto from = [&](const std::vector<Vec3>& source) {
         return [&](const Vec3& x) {
-            return test::truth::polygon_illuminance(source, luminance, x, Vec3::UnitZ());
+            return truth::polygon_illuminance(source, luminance, x, Vec3::UnitZ());
         };
     };
     const double direct = mean(camera, from(polygon));

@@ -1,15 +1,15 @@
 // A room of seven diffuse panels, one of them a luminous half of the ceiling, against Galerkin
 // radiosity with exchange factors in closed form.
 #include "tests/support/truth_checks.h"
-#include "tests/transport/truth/polygon_light.h"
-#include "tests/transport/truth/room_radiosity.h"
+#include "validation/truth/polygon_light.h"
+#include "validation/truth/room_radiosity.h"
 
 using namespace lucerna;
 using namespace lucerna::optics;
-using test::SceneBuilder;
-using test::truth::extrapolated;
-using test::truth::Panel;
-using test::truth::RoomRadiosity;
+using validation::SceneBuilder;
+using truth::extrapolated;
+using truth::Panel;
+using truth::RoomRadiosity;
 
 namespace {
 
@@ -83,16 +83,16 @@ TEST_CASE("Radiosity: exchange factors close and the solution has converged", "[
     // Against Lambert's formula, integrated over one of the rectangles by a fine midpoint sum.
     const Panel floor{2, 0.0, {0.1, 0.5}, {0.2, 0.9}, 0.0, 0.0};
     const Panel wall{0, 1.0, {0.3, 1.2}, {0.1, 0.7}, 0.0, 0.0};
-    const auto polygon = test::truth::corners({1.0, 0.3, 0.1}, {0.0, 0.9, 0.0}, {0.0, 0.0, 0.6});
+    const auto polygon = truth::corners({1.0, 0.3, 0.1}, {0.0, 0.9, 0.0}, {0.0, 0.0, 0.6});
     constexpr int steps = 64;
     double sum = 0.0;
     for (int i = 0; i < steps; ++i) {
         for (int j = 0; j < steps; ++j) {
             const Vec3 x(0.1 + 0.4 * (i + 0.5) / steps, 0.2 + 0.7 * (j + 0.5) / steps, 0.0);
-            sum += test::truth::polygon_illuminance(polygon, 1.0 / pi, x, Vec3::UnitZ());
+            sum += truth::polygon_illuminance(polygon, 1.0 / pi, x, Vec3::UnitZ());
         }
     }
-    CHECK_THAT(test::truth::exchange_area_m2(floor, wall),
+    CHECK_THAT(truth::exchange_area_m2(floor, wall),
                Catch::Matchers::WithinRel(sum * 0.28 / (steps * steps), 1e-4));
 
     const RoomRadiosity room_6(panels(), 6), room_12(panels(), 12);

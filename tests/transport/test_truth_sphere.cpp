@@ -3,7 +3,7 @@
 
 using namespace lucerna;
 using namespace lucerna::optics;
-using test::SceneBuilder;
+using validation::SceneBuilder;
 
 namespace {
 

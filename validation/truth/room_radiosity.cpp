@@ -1,9 +1,9 @@
-#include "tests/transport/truth/room_radiosity.h"
+#include "validation/truth/room_radiosity.h"
 
-#include "tests/transport/truth/polygon_light.h"
-#include "tests/transport/truth/quadrature.h"
+#include "validation/truth/polygon_light.h"
+#include "validation/truth/quadrature.h"
 
-namespace lucerna::test::truth {
+namespace lucerna::truth {
 namespace {
 
 // Antiderivatives of the exchange of two rectangles, to be summed over their corners with
@@ -201,4 +201,4 @@ double RoomRadiosity::cone_luminance(std::size_t panel, const Vec3& normal, cons
     return sum / solid_angle_sr;
 }
 
-}  // namespace lucerna::test::truth
+}  // namespace lucerna::truth

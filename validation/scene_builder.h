@@ -1,4 +1,4 @@
-// Scenes in a few lines for tests: grey materials, equal-energy lights.
+// Scenes in a few lines: grey materials, equal-energy lights.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 #include "optics/scene.h"
 #include "spectral/photometry.h"
 
-namespace lucerna::test {
+namespace lucerna::validation {
 
 /// Adds parts with plain numbers to optics::SceneParts.
 struct SceneBuilder {
@@ -95,4 +95,4 @@ struct SceneBuilder {
     }
 };
 
-}  // namespace lucerna::test
+}  // namespace lucerna::validation

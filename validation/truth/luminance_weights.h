@@ -3,7 +3,7 @@
 
 #include "spectral/observer.h"
 
-namespace lucerna::test::truth {
+namespace lucerna::truth {
 
 /// Mean of f(wavelength in nm), weighted by a colour-matching function; a sum over the nodes of the
 /// CIE's table at 1 nm.
@@ -23,4 +23,4 @@ double luminous_mean(const Function& f) {
     return weighted_mean(spectral::v_lambda(), f);
 }
 
-}  // namespace lucerna::test::truth
+}  // namespace lucerna::truth

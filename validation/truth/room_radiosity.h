@@ -6,7 +6,7 @@
 
 #include "core/vector.h"
 
-namespace lucerna::test::truth {
+namespace lucerna::truth {
 
 /// A rectangle in a plane of constant coordinate `axis`; spans are those of the axes that follow
 /// (axis + 1, axis + 2, modulo 3). It emits and reflects into the room.
@@ -62,4 +62,4 @@ double extrapolated(const RoomRadiosity& coarse, const RoomRadiosity& fine,
 /// Area times form factor between two axis-aligned rectangles that face each other [m2].
 double exchange_area_m2(const Panel& a, const Panel& b);
 
-}  // namespace lucerna::test::truth
+}  // namespace lucerna::truth

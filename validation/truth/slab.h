@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace lucerna::test::truth {
+namespace lucerna::truth {
 
 /// Reflectances of a boundary for s and p polarised light, by the angles of incidence and
 /// refraction (Fresnel's sine and tangent laws; Hecht, Optics, 5th ed., eqs. 4.42 and 4.43).
@@ -54,4 +54,4 @@ inline double polarised_transmittance(double index, double incidence_rad,
     return 0.5 * (summed_transmittance(r.s, a) + summed_transmittance(r.p, a));
 }
 
-}  // namespace lucerna::test::truth
+}  // namespace lucerna::truth

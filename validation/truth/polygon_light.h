@@ -6,7 +6,7 @@
 
 #include "core/vector.h"
 
-namespace lucerna::test::truth {
+namespace lucerna::truth {
 
 /// The part of a polygon above the plane through x with the given normal (Sutherland-Hodgman).
 inline std::vector<Vec3> above_horizon(const std::vector<Vec3>& polygon, const Vec3& x,
@@ -50,4 +50,4 @@ inline std::vector<Vec3> corners(const Vec3& corner, const Vec3& u, const Vec3& 
     return {corner, corner + u, corner + u + v, corner + v};
 }
 
-}  // namespace lucerna::test::truth
+}  // namespace lucerna::truth

@@ -3,7 +3,7 @@
 
 #include <array>
 
-namespace lucerna::test::truth {
+namespace lucerna::truth {
 
 /// Integral of f from a to b by `panels` panels of eight nodes each (Abramowitz and Stegun, table
 /// 25.4): exact for polynomials of degree 15 on each panel.
@@ -24,4 +24,4 @@ double integral(const Function& f, double a, double b, int panels = 8) {
     return sum * half;
 }
 
-}  // namespace lucerna::test::truth
+}  // namespace lucerna::truth

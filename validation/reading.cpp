@@ -1,0 +1,39 @@
+#include "validation/reading.h"
+
+#include <cmath>
+
+namespace lucerna::validation {
+namespace {
+
+Reading reading(const Estimate& estimate) {
+    return {.value = estimate.mean(),
+            .standard_error = estimate.standard_error(),
+            .expanded_uncertainty = estimate.expanded_uncertainty(),
+            .degrees_of_freedom = static_cast<double>(estimate.count()) - 1.0,
+            .uncorrected_value = estimate.mean(),
+            .uncorrected_standard_error = estimate.standard_error()};
+}
+
+}  // namespace
+
+Read sensor(std::size_t i) {
+    return [i](const optics::Result& result) { return reading(result.quantities.at(i).estimate); };
+}
+
+Read image_mean(std::size_t i) {
+    return [i](const optics::Result& result) { return reading(result.images.at(i).mean); };
+}
+
+Read scaled(Read read, double factor) {
+    return [read = std::move(read), factor](const optics::Result& result) {
+        Reading r = read(result);
+        r.value *= factor;
+        r.standard_error *= std::abs(factor);
+        r.expanded_uncertainty *= std::abs(factor);
+        r.uncorrected_value *= factor;
+        r.uncorrected_standard_error *= std::abs(factor);
+        return r;
+    };
+}
+
+}  // namespace lucerna::validation

@@ -3,13 +3,21 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "optics/transport/settings.h"
 
 namespace lucerna::cli {
 
 /// What the program tells the shell.
-enum ExitCode { done = 0, internal_error = 1, bad_input = 2, accuracy_not_reached = 3 };
+enum ExitCode {
+    done = 0,
+    internal_error = 1,
+    validation_failed = 1,
+    bad_input = 2,
+    accuracy_not_reached = 3
+};
 
 /// What the command line says about a run; what it leaves open is as the scene file says.
 struct RunOptions {
@@ -40,6 +48,17 @@ ExitCode compare(const CompareOptions& options);
 
 /// Measures how fast the rays of a scene are traced, over this many paths of each kind.
 ExitCode bench(const std::filesystem::path& scene, std::uint32_t paths);
+
+struct ValidateOptions {
+    std::vector<std::string> cases;  ///< ids, families or patterns; none: all
+    bool list = false;               ///< only say which there are
+    std::size_t seeds = 1;
+    std::uint64_t seed = 1;
+    std::optional<int> threads;
+    std::optional<std::filesystem::path> output;  ///< folder of validation.json and .html
+};
+/// Runs validation cases and compares them with their truths.
+ExitCode validate(const ValidateOptions& options);
 
 /// Says what a photometric file holds.
 ExitCode photometry(const std::filesystem::path& file);

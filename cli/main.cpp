@@ -39,6 +39,8 @@ struct CommandLine {
     CLI::App* compare_command;
     CLI::App* photometry_command;
     CLI::App* bench_command;
+    CLI::App* validate_command;
+    cli::ValidateOptions validate;
 
     CommandLine() {
         app.set_version_flag("--version", "lucerna " LUCERNA_VERSION);
@@ -92,6 +94,21 @@ struct CommandLine {
         bench_command->add_option("--paths", paths_to_time, "Paths of each kind [100000]")
             ->check(CLI::PositiveNumber);
 
+        validate_command = app.add_subcommand(
+            "validate", "Compare the engine with truths that were derived without it");
+        validate_command->add_option("CASE", validate.cases,
+                                     "Cases: ids, families, or patterns such as 'furnace/*' [all]");
+        validate_command->add_flag("--list", validate.list, "Only say which cases there are");
+        validate_command->add_option("--seeds", validate.seeds, "Runs per case, for coverage [1]")
+            ->check(CLI::PositiveNumber);
+        validate_command->add_option("--seed", validate.seed, "Seed of the first run [1]")
+            ->check(CLI::NonNegativeNumber);
+        validate_command
+            ->add_option("--threads", validate.threads, "Runs at once [all of the machine]")
+            ->check(CLI::PositiveNumber);
+        validate_command->add_option("-o,--output", validate.output,
+                                     "Folder of validation.json and validation.html [none]");
+
         photometry_command =
             app.add_subcommand("photometry", "Say what an IES or EULUMDAT file holds");
         photometry_command->add_option("FILE", photometric_file, "IES LM-63 or EULUMDAT file")
@@ -103,6 +120,7 @@ struct CommandLine {
         if (*check_command) return cli::check(scene_to_check);
         if (*compare_command) return cli::compare(compare);
         if (*bench_command) return cli::bench(scene_to_time, paths_to_time);
+        if (*validate_command) return cli::validate(validate);
         if (*photometry_command) return cli::photometry(photometric_file);
         fmt::print(stderr, "{}", app.help());
         return cli::bad_input;

@@ -44,14 +44,18 @@ std::vector<std::string> file_names(const std::vector<optics::Image>& images) {
     return names;
 }
 
-ResultsFolder::ResultsFolder(std::filesystem::path path) : path_(std::move(path)) {
+void make_folder(const std::filesystem::path& path) {
     std::error_code error;
-    std::filesystem::create_directories(path_, error);
+    std::filesystem::create_directories(path, error);
     if (error)
-        throw InputError({path_.string()}, fmt::format("cannot be made: {}", error.message()));
-    if (::access(path_.c_str(), W_OK | X_OK) != 0) {
-        throw InputError({path_.string()}, "cannot be written to; choose another folder with -o");
+        throw InputError({path.string()}, fmt::format("cannot be made: {}", error.message()));
+    if (::access(path.c_str(), W_OK | X_OK) != 0) {
+        throw InputError({path.string()}, "cannot be written to; choose another folder with -o");
     }
+}
+
+ResultsFolder::ResultsFolder(std::filesystem::path path) : path_(std::move(path)) {
+    make_folder(path_);
 }
 
 std::vector<io::WrittenFile> ResultsFolder::write(const optics::Result& result,

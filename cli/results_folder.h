@@ -18,6 +18,9 @@ std::filesystem::path default_results_folder(const std::filesystem::path& scene)
 /// '_'; names that would coincide are numbered.
 std::vector<std::string> file_names(const std::vector<optics::Image>& images);
 
+/// Makes a folder unless it is there. Throws InputError if it cannot be written to.
+void make_folder(const std::filesystem::path& path);
+
 class ResultsFolder {
 public:
     /// Makes the folder, so that a run does not find out at its end. Throws InputError if it cannot

@@ -1,0 +1,54 @@
+// The command validate: the engine against truths that were derived without it.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+
+#include "cli/commands.h"
+#include "cli/results_folder.h"
+#include "core/parallel.h"
+#include "io/atomic_file.h"
+#include "validation/cases.h"
+#include "validation/report.h"
+#include "validation/selection.h"
+
+namespace lucerna::cli {
+
+ExitCode validate(const ValidateOptions& options) {
+    const std::vector<validation::Case> cases =
+        validation::selected(validation::all_cases(), options.cases);
+    if (options.list) {
+        fmt::print("{}", validation::list_text(cases));
+        return done;
+    }
+    if (options.output) make_folder(*options.output);  // not to find out at the end
+
+    validation::RunPlan plan;
+    plan.first_seed = options.seed;
+    plan.seeds = options.seeds;
+    plan.threads = options.threads.value_or(hardware_threads());
+    const bool terminal = ::isatty(STDERR_FILENO) == 1;
+    const std::size_t runs = cases.size() * plan.seeds;
+    const auto start = std::chrono::steady_clock::now();
+    validation::Report report{.outcomes = validation::run_cases(
+                                  cases, plan,
+                                  [&](std::size_t run) {
+                                      if (terminal)
+                                          fmt::print(stderr, "\r{} of {} runs\x1b[K", run, runs);
+                                  }),
+                              .plan = plan};
+    if (terminal) std::fputs("\r\x1b[K", stderr);
+    report.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    fmt::print("{}", validation::report_text(report));
+    if (options.output) {
+        const auto json = *options.output / "validation.json";
+        const auto page = *options.output / "validation.html";
+        io::write_file(json, validation::report_json(report));
+        io::write_file(page, validation::report_html(report));
+        fmt::print("\nWritten\n  {}\n  {}\n", json.string(), page.string());
+    }
+    return report.passed() ? done : validation_failed;
+}
+
+}  // namespace lucerna::cli

@@ -1,0 +1,65 @@
+#include "validation/selection.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/diagnostics.h"
+
+namespace lucerna::validation {
+namespace {
+
+std::string family_of(const std::string& id) {
+    return id.substr(0, id.find('/'));
+}
+
+// The pattern matches a beginning of the text.
+bool matches_beginning(std::string_view pattern, std::string_view text) {
+    if (pattern.empty()) return true;
+    if (pattern[0] == '*') {
+        for (std::size_t skip = 0; skip <= text.size(); ++skip) {
+            if (matches_beginning(pattern.substr(1), text.substr(skip))) return true;
+        }
+        return false;
+    }
+    return !text.empty() && (pattern[0] == '?' || pattern[0] == text[0]) &&
+           matches_beginning(pattern.substr(1), text.substr(1));
+}
+
+}  // namespace
+
+bool means(const std::string& pattern, const std::string& id) {
+    if (pattern == id || pattern == family_of(id)) return true;
+    return pattern.find_first_of("*?") != std::string::npos && matches_beginning(pattern, id);
+}
+
+std::vector<Case> selected(std::vector<Case> cases, const std::vector<std::string>& patterns) {
+    std::vector<std::string> names;
+    for (const Case& own : cases) {
+        if (names.empty() || family_of(names.back()) != family_of(own.id)) {
+            names.push_back(family_of(own.id));
+        }
+        names.push_back(own.id);
+    }
+    Diagnostics problems;
+    for (const std::string& pattern : patterns) {
+        if (std::any_of(names.begin(), names.end(),
+                        [&](const std::string& name) { return means(pattern, name); })) {
+            continue;
+        }
+        const std::string nearest = nearest_word(pattern, names);
+        problems.add({"validate"},
+                     fmt::format("no case is called '{}'; {}", pattern,
+                                 nearest.empty() ? "--list shows them all"
+                                                 : fmt::format("did you mean '{}'?", nearest)));
+    }
+    problems.throw_if_any();
+    if (patterns.empty()) return cases;
+    std::erase_if(cases, [&](const Case& own) {
+        return std::none_of(patterns.begin(), patterns.end(),
+                            [&](const std::string& pattern) { return means(pattern, own.id); });
+    });
+    return cases;
+}
+
+}  // namespace lucerna::validation

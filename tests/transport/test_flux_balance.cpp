@@ -32,7 +32,7 @@ TEST_CASE("The flux balance closes", "[unit]") {
 
 TEST_CASE("Each of several lights brings its own flux", "[analytic]") {
     // Beams onto plates of their own.
-    test::SceneBuilder scene;
+    validation::SceneBuilder scene;
     const std::vector<double> fluxes_lm{200.0, 300.0, 500.0};
     for (std::size_t i = 0; i < fluxes_lm.size(); ++i) {
         const Vec3 place(static_cast<double>(i), 0.0, 0.0);

@@ -3,11 +3,12 @@
 #include "tests/support/check_mean.h"
 #include "tests/support/chi_square.h"
 #include "tests/support/direction_cells.h"
-#include "tests/support/scene_builder.h"
+#include "validation/scene_builder.h"
 
 using namespace lucerna;
 using namespace lucerna::optics;
 using namespace lucerna::test;
+using validation::SceneBuilder;
 
 namespace {
 
@@ -19,7 +20,7 @@ std::vector<Ray> first_rays(SceneBuilder scene, int samples_per_pixel, std::uint
     Settings settings;
     settings.samples_per_pixel = samples_per_pixel;
     const Stage stage(scene.parts);
-    const SensorPlanes planes(scene.parts, 0.1);
+    const SensorPlanes planes(scene.parts, stage.caster(), 0.1);
     const Collection collection = Collection::of(Method::path, PlantedError::none);
     const Radii no_radii({});
     const ForwardMap no_map;

@@ -5,8 +5,8 @@
 
 using namespace lucerna;
 using namespace lucerna::optics;
-using validation::SceneBuilder;
 using truth::polygon_illuminance;
+using validation::SceneBuilder;
 
 namespace {
 
@@ -127,8 +127,8 @@ TEST_CASE("Direct light: more lights than are drawn at once", "[analytic]") {
     // formula.
     const auto method = GENERATE(Method::combined, Method::path);
     SceneBuilder scene;
-    const auto polygon_1 = test::truth::corners({-0.3, -0.5, 1.5}, {0, 1, 0}, {0.8, 0, 0});
-    const auto polygon_2 = test::truth::corners({-1.5, -0.5, 1.2}, {0, 0.3, 0}, {0.3, 0, 0});
+    const auto polygon_1 = truth::corners({-0.3, -0.5, 1.5}, {0, 1, 0}, {0.8, 0, 0});
+    const auto polygon_2 = truth::corners({-1.5, -0.5, 1.2}, {0, 0.3, 0}, {0.3, 0, 0});
     const Rectangle panel_1{polygon_1[0], {0, 1, 0}, {0.8, 0, 0}};
     const Rectangle panel_2{polygon_2[0], {0, 0.3, 0}, {0.3, 0, 0}};
     scene.area_light(scene.object("lamp", panel_1, scene.black()), 2000.0);
@@ -272,8 +272,8 @@ TEST_CASE("Direct light: absorption on a straight way", "[analytic]") {
         };
         const double integral = truth::integral(
             [&](double x) {
-                return truth::integral([&](double y) { return luminance(x, y); },
-                                             -half_width_m, half_width_m, 1);
+                return truth::integral([&](double y) { return luminance(x, y); }, -half_width_m,
+                                       half_width_m, 1);
             },
             -half_width_m, half_width_m, 1);
         return integral / (4.0 * half_width_m * half_width_m);

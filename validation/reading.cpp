@@ -6,12 +6,12 @@ namespace lucerna::validation {
 namespace {
 
 Reading reading(const Estimate& estimate) {
-    return {.value = estimate.mean(),
+    return {.value = estimate.value(),
             .standard_error = estimate.standard_error(),
             .expanded_uncertainty = estimate.expanded_uncertainty(),
-            .degrees_of_freedom = static_cast<double>(estimate.count()) - 1.0,
+            .degrees_of_freedom = estimate.degrees_of_freedom(),
             .uncorrected_value = estimate.mean(),
-            .uncorrected_standard_error = estimate.standard_error()};
+            .uncorrected_standard_error = estimate.mean_standard_error()};
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ constexpr std::uint32_t min_forward_rays = 20000;
 constexpr std::uint64_t backward_per_secondary_ray = 4;
 // Expected photons in a kernel of the first phase: few where the kernel is hidden behind a
 // scattering event, more where it is seen.
-constexpr double photons_per_hidden_kernel = 8.0;
+constexpr double photons_per_hidden_kernel = 16.0;
 constexpr double photons_per_seen_kernel = 24.0;
 
 class Stopwatch {

@@ -122,7 +122,7 @@ TEST_CASE("Radiosity: exchange factors close and the solution has converged", "[
 TEST_CASE("Radiosity: six different walls and half a luminous ceiling", "[analytic]") {
     static const RoomRadiosity coarse(panels(), 8), fine(panels(), 16);
     const auto [method, effort] =
-        GENERATE(table<Method, test::Effort>({{Method::combined, {208, 16000}},
+        GENERATE(table<Method, test::Effort>({{Method::combined, {224, 16000}},
                                               {Method::forward, {96, 16000}},
                                               {Method::path, {128, 100}}}));
     INFO("method " << static_cast<int>(method));

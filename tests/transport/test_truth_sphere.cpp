@@ -93,7 +93,7 @@ TEST_CASE("Integrating sphere: a lamp that absorbs and reflects", "[analytic]") 
     scene.receiver(lamp);
     scene.meter({0.3, 0.0, 0.0}, {0.5, 0.2, 0.0}, 1.2);
     INFO("method " << static_cast<int>(method));
-    const Result result = test::run(scene, method, {128, 6000});
+    const Result result = test::run(scene, method, {180, 6000});
     const double share = std::pow(lamp_radius_m / radius_m, 2);
     const double illuminance =
         flux_lm / (wall_area_m2 * (1.0 - rho * (1.0 - share) - rho * share * lamp_rho));

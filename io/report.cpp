@@ -152,6 +152,7 @@ std::string report_json(const optics::Result& result, const ReportSource& source
                  {"scene_hash", source.scene_hash},
                  {"seed", result.settings.seed},
                  {"method", method_name(result.settings.method)},
+                 {"polarisation", result.settings.polarisation.value_or(false)},
                  {"threads", threads},
                  {"phases", result.phases},
                  {"wall_s", number(result.wall_s, "wall_s")},

@@ -110,6 +110,8 @@ optics::Settings read_settings(const YamlCursor& section, const optics::ScenePar
         settings.samples_per_pixel = static_cast<int>(read_count(samples, 1, 1u << 16));
     if (const YamlCursor bins = map.optional("spectral_bins"))
         settings.spectral_bins = static_cast<int>(read_count(bins, 0, 470));
+    if (const auto polarisation = map.optional("polarisation").choice({"on", "off"}))
+        settings.polarisation = *polarisation == "on";
     map.no_other_keys();
     return settings;
 }

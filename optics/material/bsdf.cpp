@@ -34,7 +34,7 @@ double pdf_solid_angle(const Bsdf& bsdf, const SurfaceOptics& at, const Vec3& wo
 
 std::optional<BsdfSample> sample(const Bsdf& bsdf, const SurfaceOptics& at, const Vec3& wo,
                                  double u_lobe, double u1, double u2, Transport transport) {
-    return std::visit(
+    auto event = std::visit(
         [&]<typename Model>(const Model& model) -> std::optional<BsdfSample> {
             if constexpr (std::is_same_v<Model, Black>) {
                 return std::nullopt;
@@ -43,6 +43,8 @@ std::optional<BsdfSample> sample(const Bsdf& bsdf, const SurfaceOptics& at, cons
             }
         },
         bsdf);
+    if (at.polarisation && event && !event->specular) *at.polarisation = {};
+    return event;
 }
 
 namespace {

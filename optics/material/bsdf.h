@@ -14,6 +14,7 @@
 
 #include "core/vector.h"
 #include "optics/material/measured_bsdf.h"
+#include "optics/material/polarisation.h"
 #include "spectral/lanes.h"
 #include "spectral/spectrum.h"
 #include "spectral/wavelength_set.h"
@@ -90,6 +91,9 @@ struct SurfaceOptics {
     bool dispersive = false;  ///< an index differs between the lanes
     bool hero_only = false;   ///< only the hero lane of this path still counts
     int hero = 0;             ///< the path's hero lane
+    /// State of the light that arrives, its axis across the plane of incidence; sample() turns it
+    /// into that of the light that goes on. nullptr: light counts as unpolarised at each event.
+    Polarisation* polarisation = nullptr;
 };
 
 /// One sampled event.
@@ -119,6 +123,8 @@ double pdf_solid_angle(const Bsdf& bsdf, const SurfaceOptics& at, const Vec3& wo
 /// Samples one event in proportion to f |cos|; nothing if all light from wo is absorbed.
 /// Unbiased: E[weight * g(wi)] = sum over lobes of the integral of f |cos| g. With mean weight
 /// equal to the albedo; the caller decides by roulette whether the path goes on.
+/// Specular events act on the polarisation of the path; all scattering lobes, rough boundaries
+/// included, count as depolarising.
 std::optional<BsdfSample> sample(const Bsdf& bsdf, const SurfaceOptics& at, const Vec3& wo,
                                  double u_lobe, double u1, double u2, Transport transport);
 

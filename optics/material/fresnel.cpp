@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 
 namespace lucerna::optics {
 
@@ -64,6 +65,75 @@ Lanes fresnel_conductor(double cos_incidence, const Lanes& n, const Lanes& k) {
                                    .unpolarised());
     }
     return reflectance;
+}
+
+namespace {
+
+Mueller<double> mueller(const FresnelReflectance& reflectance, std::complex<double> s_conj_p) {
+    return {0.5 * (reflectance.s + reflectance.p), 0.5 * (reflectance.s - reflectance.p),
+            s_conj_p.real(), s_conj_p.imag()};
+}
+
+// r_s r_p* of a boundary with the relative index N, where root = sqrt(N^2 - sin^2). From the
+// amplitudes of Born and Wolf, section 1.5.2, eq. 21a, with complex angles as in section 14.2.
+std::complex<double> amplitude_product(double cosine, std::complex<double> index_squared,
+                                       std::complex<double> root) {
+    const std::complex<double> s = (cosine - root) / (cosine + root);
+    const std::complex<double> p =
+        (index_squared * cosine - root) / (index_squared * cosine + root);
+    return s * std::conj(p);
+}
+
+template <typename Of>
+Mueller<Lanes> on_lanes(const Of& of_lane) {
+    Mueller<Lanes> lanes;
+    for (int k = 0; k < spectral::lane_count; ++k) {
+        const Mueller<double> m = of_lane(k);
+        lanes.mean[k] = static_cast<float>(m.mean);
+        lanes.difference[k] = static_cast<float>(m.difference);
+        lanes.real[k] = static_cast<float>(m.real);
+        lanes.imaginary[k] = static_cast<float>(m.imaginary);
+    }
+    return lanes;
+}
+
+}  // namespace
+
+Mueller<double> dielectric_reflection(double cos_incidence, double eta) {
+    if (eta == 1.0) return {0.0, 0.0, 0.0, 0.0};
+    const double root_squared = (eta - 1.0) * (eta + 1.0) + square(cos_incidence);
+    const std::complex<double> root = root_squared > 0.0
+                                          ? std::sqrt(root_squared)
+                                          : std::complex<double>(0.0, std::sqrt(-root_squared));
+    return mueller(fresnel_dielectric(cos_incidence, eta),
+                   amplitude_product(cos_incidence, square(eta), root));
+}
+
+Mueller<double> conductor_reflection(double cos_incidence, double n, double k) {
+    const std::complex<double> index_squared = std::pow(std::complex<double>(n, k), 2);
+    const std::complex<double> root = std::sqrt(index_squared - (1.0 - square(cos_incidence)));
+    return mueller(fresnel_conductor(cos_incidence, n, k),
+                   amplitude_product(cos_incidence, index_squared, root));
+}
+
+Mueller<Lanes> dielectric_reflection(double cos_incidence, const Lanes& eta) {
+    return on_lanes([&](int lane) {
+        return dielectric_reflection(cos_incidence, static_cast<double>(eta[lane]));
+    });
+}
+
+Mueller<Lanes> conductor_reflection(double cos_incidence, const Lanes& n, const Lanes& k) {
+    return on_lanes([&](int lane) {
+        return conductor_reflection(cos_incidence, static_cast<double>(n[lane]),
+                                    static_cast<double>(k[lane]));
+    });
+}
+
+Mueller<double> refraction(const Mueller<double>& reflection) {
+    // T_s = 1 - R_s and T_p = 1 - R_p; both amplitudes are real and positive.
+    const double s = std::max(0.0, 1.0 - reflection.mean - reflection.difference);
+    const double p = std::max(0.0, 1.0 - reflection.mean + reflection.difference);
+    return {0.5 * (s + p), 0.5 * (s - p), std::sqrt(s * p), 0.0};
 }
 
 Vec3 refract(const Vec3& wo, const Vec3& m, double eta) {

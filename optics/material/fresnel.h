@@ -1,12 +1,9 @@
 // Fresnel's equations and Snell's law at a plane boundary, and mirror directions.
 #pragma once
 
-#include "core/vector.h"
-#include "spectral/lanes.h"
+#include "optics/material/polarisation.h"
 
 namespace lucerna::optics {
-
-using spectral::Lanes;
 
 /// Reflectance of flux for light polarised perpendicular (s) and parallel (p) to the plane of
 /// incidence.
@@ -29,6 +26,15 @@ FresnelReflectance fresnel_conductor(double cos_incidence, double n, double k);
 /// Unpolarised reflectance on each lane.
 Lanes fresnel_dielectric(double cos_incidence, const Lanes& eta);
 Lanes fresnel_conductor(double cos_incidence, const Lanes& n, const Lanes& k);
+
+/// The same reflections as Mueller matrices, with the phases of total reflection and of metals.
+Mueller<double> dielectric_reflection(double cos_incidence, double eta);
+Mueller<Lanes> dielectric_reflection(double cos_incidence, const Lanes& eta);
+Mueller<double> conductor_reflection(double cos_incidence, double n, double k);
+Mueller<Lanes> conductor_reflection(double cos_incidence, const Lanes& n, const Lanes& k);
+
+/// Refraction of what a boundary between transparent media does not reflect, as a factor of flux.
+Mueller<double> refraction(const Mueller<double>& reflection);
 
 /// Direction refracted by Snell's law, pointing away from the surface.
 ///

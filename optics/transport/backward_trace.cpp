@@ -134,8 +134,7 @@ private:
         if (collected && collection_.second_deposit == 0) return false;
 
         const Bsdf& bsdf = stage.parts().bsdfs[encounter->bsdf];
-        const SurfaceOptics optics = optics_at(
-            phase_, encounter->medium_above, encounter->medium_below, path_.hero_only, path_.hero);
+        const SurfaceOptics optics = optics_at(phase_, *encounter, path_);
         if (stage.scatters(encounter->bsdf)) {
             if (collected) {
                 store(*encounter, collection_.second_deposit);
@@ -179,11 +178,13 @@ private:
     // little: a lamp seen by reflection of a few percent would else be a rare bright dot.
     void branch(const Encounter& encounter, const Bsdf& bsdf, const SurfaceOptics& optics) {
         const double almost_one = 1.0 - 0x1p-32;
+        Path path = path_;
         const auto one = sample(bsdf, optics, encounter.wo, 0.0, 0.0, 0.0, Transport::radiance);
         if (one->probability < 1.0) {
+            SurfaceOptics of_other = optics;
+            if (of_other.polarisation) of_other.polarisation = &path.polarisation;
             const auto other =
-                sample(bsdf, optics, encounter.wo, almost_one, 0.0, 0.0, Transport::radiance);
-            Path path = path_;
+                sample(bsdf, of_other, encounter.wo, almost_one, 0.0, 0.0, Transport::radiance);
             follow(path, encounter, *other);
             path.weight *= static_cast<float>(other->probability);
             branches_.push_back({path, importance_ * other->probability});

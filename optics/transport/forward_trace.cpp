@@ -116,8 +116,7 @@ void trace_forward(const Phase& phase, RandomPurpose purpose, std::uint32_t inde
             arrive({encounter->point, path.ray.direction, path.weight, history});
             // A surface with both kinds of lobes lets the path go on by the specular one.
         }
-        const SurfaceOptics at = optics_at(phase, encounter->medium_above, encounter->medium_below,
-                                           path.hero_only, path.hero);
+        const SurfaceOptics at = optics_at(phase, *encounter, path);
         const double u_lobe = random.uniform();
         const double u1 = random.uniform();
         const double u2 = random.uniform();

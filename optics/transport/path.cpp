@@ -57,7 +57,20 @@ SurfaceOptics optics_at(const Phase& phase, ObjectId medium_above, ObjectId medi
             .index_below = phase.index(medium_below),
             .dispersive = phase.dispersive(medium_above) || phase.dispersive(medium_below),
             .hero_only = hero_only,
-            .hero = hero};
+            .hero = hero,
+            .polarisation = nullptr};
+}
+
+SurfaceOptics optics_at(const Phase& phase, const Encounter& encounter, Path& path) {
+    SurfaceOptics optics =
+        optics_at(phase, encounter.medium_above, encounter.medium_below, path.hero_only, path.hero);
+    if (phase.stage.follows_polarisation()) {
+        const Vec3& direction = path.ray.direction;
+        path.polarisation.refer_to(axis_across_incidence(encounter.frame.normal, direction),
+                                   direction);
+        optics.polarisation = &path.polarisation;
+    }
+    return optics;
 }
 
 void pass(Path& path, const Encounter& encounter) {

@@ -16,6 +16,9 @@ struct Path {
     bool hero_only = false;  ///< behind a dispersive refraction only the hero lane counts
     int hero = 0;            ///< that lane
     std::uint32_t lossless_events = 0;  ///< in a row
+    /// Backward paths carry the state of light sent along them from the observer: reciprocity makes
+    /// it the adjoint of the state of the light that comes the other way.
+    Polarisation polarisation{};
 };
 
 /// A surface at the end of a segment, before the path reacts to it.
@@ -39,6 +42,8 @@ Frame bsdf_frame(const Phase& phase, const SurfacePoint& point);
 /// What the BSDF at an encounter needs to know.
 SurfaceOptics optics_at(const Phase& phase, ObjectId medium_above, ObjectId medium_below,
                         bool hero_only, int hero);
+/// The same for an event of a path, with its polarisation where that is followed.
+SurfaceOptics optics_at(const Phase& phase, const Encounter& encounter, Path& path);
 
 /// Crosses a surface that does not act on light.
 void pass(Path& path, const Encounter& encounter);

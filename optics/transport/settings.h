@@ -42,6 +42,9 @@ struct Settings {
     std::optional<std::uint32_t> forward_rays;  ///< per phase and map; default: see simulate.cpp
     int samples_per_pixel = 1;                  ///< backward rays per pixel and phase
     int spectral_bins = 0;                      ///< bins of the spectral image; 0: none
+    /// Whether paths carry polarisation; without it where the scene has smooth dielectrics or
+    /// metals.
+    std::optional<bool> polarisation;
     PlantedError planted_error = PlantedError::none;  ///< for tests only
 
     /// What is asked of a sensor.

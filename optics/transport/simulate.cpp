@@ -46,7 +46,7 @@ class Simulation {
 public:
     Simulation(const SceneParts& parts, const Settings& settings)
         : settings_(settings),
-          stage_(parts),
+          stage_(parts, settings.polarisation),
           threads_(settings.threads > 0 ? settings.threads : hardware_threads()),
           planes_(stage_.parts(), stage_.caster(), stage_.caster().scene_radius_m() / 6.0),
           readings_(parts, settings),
@@ -161,6 +161,7 @@ public:
         result.settings = settings_;
         result.settings.forward_rays = secondary_rays_;
         result.settings.threads = threads_;
+        result.settings.polarisation = stage_.follows_polarisation();
         result.phases = phases_;
         add_warnings(result);
         return result;

@@ -71,7 +71,7 @@ const SceneParts& checked(const SceneParts& parts) {
 
 }  // namespace
 
-Stage::Stage(const SceneParts& parts)
+Stage::Stage(const SceneParts& parts, std::optional<bool> polarisation)
     : parts_(checked(parts)),
       caster_(shapes_of(parts)),
       wavelengths_(total_emission(parts), dispersion_of(parts)),
@@ -89,6 +89,11 @@ Stage::Stage(const SceneParts& parts)
     const SpectrumId white = parts_.add(spectral::Spectrum(1.0));
     const SpectrumId none = parts_.add(spectral::Spectrum(0.0));
     white_diffuser_ = parts_.add(Bsdf{Diffuse{white, none}});
+    follows_polarisation_ =
+        polarisation.value_or(std::ranges::any_of(parts_.bsdfs, [](const Bsdf& bsdf) {
+            return std::holds_alternative<SmoothDielectric>(bsdf) ||
+                   std::holds_alternative<SmoothConductor>(bsdf);
+        }));
     for (const Bsdf& bsdf : parts_.bsdfs) {
         scatters_.push_back(has_scattering_lobe(bsdf, parts_.bsdfs));
     }

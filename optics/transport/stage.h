@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/sampling.h"
@@ -16,7 +17,8 @@ inline constexpr std::uint32_t no_light = ~0u;
 class Stage {
 public:
     /// Throws InputError if the parts contradict each other.
-    explicit Stage(const SceneParts& parts);
+    /// @param polarisation  whether paths carry it; without it where a surface polarises.
+    explicit Stage(const SceneParts& parts, std::optional<bool> polarisation = std::nullopt);
 
     const SceneParts& parts() const { return parts_; }
     const RayCaster& caster() const { return caster_; }
@@ -39,6 +41,8 @@ public:
     bool scatters(BsdfId bsdf) const { return scatters_[bsdf]; }
     /// True if light can reach a scattering surface by specular events only: else no caustic map.
     bool has_caustics() const { return has_caustics_; }
+    /// True if paths carry the polarisation of their light from event to event.
+    bool follows_polarisation() const { return follows_polarisation_; }
     /// True if a straight line can cross surfaces that do not act on light.
     bool has_null_surfaces() const { return has_null_surfaces_; }
 
@@ -61,6 +65,7 @@ private:
     BsdfId white_diffuser_ = 0;
     bool has_caustics_ = false;
     bool has_null_surfaces_ = false;
+    bool follows_polarisation_ = false;
 };
 
 }  // namespace lucerna::optics

@@ -15,6 +15,7 @@ struct Effort {
     std::uint32_t phases;
     std::uint32_t forward_rays;  ///< per phase and map
     int samples_per_pixel = 1;
+    std::optional<bool> polarisation = std::nullopt;
 };
 
 inline optics::Result run(const SceneBuilder& scene, optics::Method method, const Effort& effort,
@@ -26,6 +27,7 @@ inline optics::Result run(const SceneBuilder& scene, optics::Method method, cons
     settings.max_phases = effort.phases;
     settings.forward_rays = effort.forward_rays;
     settings.samples_per_pixel = effort.samples_per_pixel;
+    settings.polarisation = effort.polarisation;
     return optics::simulate(scene.parts, settings);
 }
 

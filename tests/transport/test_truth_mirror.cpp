@@ -65,9 +65,8 @@ double mean(bool camera, const Illuminance& illuminance) {
     }
     const double integral = truth::integral(
         [&](double s) {
-            return truth::integral(
-                [&](double t) { return illuminance(middle + Vec3(s, t, 0.0)); }, -half_width_m,
-                half_width_m, 2);
+            return truth::integral([&](double t) { return illuminance(middle + Vec3(s, t, 0.0)); },
+                                   -half_width_m, half_width_m, 2);
         },
         -half_width_m, half_width_m, 2);
     return floor_rho / pi * integral / (4.0 * half_width_m * half_width_m);

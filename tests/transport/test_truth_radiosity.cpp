@@ -6,10 +6,10 @@
 
 using namespace lucerna;
 using namespace lucerna::optics;
-using validation::SceneBuilder;
 using truth::extrapolated;
 using truth::Panel;
 using truth::RoomRadiosity;
+using validation::SceneBuilder;
 
 namespace {
 

@@ -251,6 +251,17 @@ TEST_CASE("Glass in a furnace: luminance in air and in glass", "[analytic]") {
     test::check_refutes_over_runs(runs[2], truth);
 }
 
+TEST_CASE("Glass in a furnace: light that parts by wavelength before and behind the wall seen",
+          "[analytic]") {
+    // Only forward rays that went on with the hero of the backward rays meet these; if their chance
+    // is left out, they count eight times.
+    SceneBuilder scene = ball_in_furnace(true);
+    scene.camera({0.05, 0.05, 0.1}, centre, Vec3::UnitZ(), 0.5, 8, 8);
+    const Result result = test::run(scene, Method::combined, {96, 2000, 4});
+    const Estimate& mean = result.images[0].mean;
+    test::check_mean(mean.value(), mean.standard_error(), luminance / (1.0 - rho), {0.35});
+}
+
 TEST_CASE("Glass in a furnace: illuminance in glass", "[analytic]") {
     const auto [disperses, method] =
         GENERATE(table<bool, Method>({{false, Method::forward}, {true, Method::combined}}));

@@ -10,6 +10,14 @@ constexpr std::array list{
     Family{"furnace", "interreflection loses and gains nothing, on all shapes", furnace_cases},
     Family{"integrating_sphere", "direct and reflected light of a source in a diffuse sphere",
            integrating_sphere_cases},
+    Family{"slab", "refraction, multiple reflection and absorption, polarised", slab_cases},
+    Family{"ball_lens", "caustics with curvature in two directions", ball_lens_cases},
+    Family{"cylinder_lens", "caustics with curvature in one direction", cylinder_lens_cases},
+    Family{"rod_guide", "many total reflections, skew rays, end faces", rod_guide_cases},
+    Family{"prism", "dispersion and the directions of refracted light", prism_cases},
+    Family{"beer_lambert", "absorption over wavelength", beer_lambert_cases},
+    Family{"invariance", "luminance behind and within glass", invariance_cases},
+    Family{"colour", "colour of CIE illuminants through the engine", colour_cases},
 };
 
 }  // namespace

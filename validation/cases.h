@@ -12,6 +12,14 @@ namespace lucerna::validation {
 // Each in cases/FAMILY.cpp.
 std::vector<Case> furnace_cases();
 std::vector<Case> integrating_sphere_cases();
+std::vector<Case> slab_cases();
+std::vector<Case> ball_lens_cases();      // in cases/round_lens.cpp
+std::vector<Case> cylinder_lens_cases();  // in cases/round_lens.cpp
+std::vector<Case> rod_guide_cases();
+std::vector<Case> prism_cases();
+std::vector<Case> beer_lambert_cases();
+std::vector<Case> invariance_cases();
+std::vector<Case> colour_cases();
 
 struct Family {
     std::string_view name;

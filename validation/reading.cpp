@@ -14,7 +14,32 @@ Reading reading(const Estimate& estimate) {
             .uncorrected_standard_error = estimate.mean_standard_error()};
 }
 
+Reading reading(const Uncertain& result) {
+    return {.value = result.value,
+            .standard_error = result.standard_error,
+            .expanded_uncertainty = result.expanded_uncertainty(),
+            .degrees_of_freedom = result.degrees_of_freedom,
+            .uncorrected_value = result.value,
+            .uncorrected_standard_error = result.standard_error};
+}
+
+const optics::Colour& colour(const optics::Result& result, std::size_t i) {
+    return result.quantities.at(i).colour.value();
+}
+
 }  // namespace
+
+Read chromaticity_x(std::size_t i) {
+    return [i](const optics::Result& result) { return reading(colour(result, i).x); };
+}
+
+Read chromaticity_y(std::size_t i) {
+    return [i](const optics::Result& result) { return reading(colour(result, i).y); };
+}
+
+Read colour_temperature_k(std::size_t i) {
+    return [i](const optics::Result& result) { return reading(colour(result, i).cct_k.value()); };
+}
 
 Read sensor(std::size_t i) {
     return [i](const optics::Result& result) { return reading(result.quantities.at(i).estimate); };

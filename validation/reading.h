@@ -26,6 +26,11 @@ using Read = std::function<Reading(const optics::Result&)>;
 Read sensor(std::size_t i);
 /// Of the i-th of Result::images: its mean luminance.
 Read image_mean(std::size_t i);
+/// Chromaticity of CIE 1931 and correlated colour temperature [K] of the i-th of
+/// Result::quantities.
+Read chromaticity_x(std::size_t i);
+Read chromaticity_y(std::size_t i);
+Read colour_temperature_k(std::size_t i);
 /// A reading times a constant.
 Read scaled(Read read, double factor);
 

@@ -1,0 +1,139 @@
+// A dispersive prism at least deviation: two sheets meet where the middle of a beam must land.
+#include <fmt/format.h>
+
+#include "optics/geometry/mesh.h"
+#include "spectral/photometry.h"
+#include "validation/cases.h"
+#include "validation/scene_builder.h"
+#include "validation/truth/prism.h"
+#include "validation/truth/spectral_mean.h"
+
+namespace lucerna::validation {
+namespace {
+
+using namespace optics;
+
+constexpr double apex_rad = pi / 3.0;
+constexpr double height_m = 0.06;
+constexpr double flux_lm = 1000.0;
+
+// Cauchy's formula for a glass like a dense flint.
+double index_at(double nm) {
+    return 1.69 + 1.35e4 / (nm * nm);
+}
+
+// The apex edge is the y axis, the base below.
+std::shared_ptr<const Mesh> prism_mesh() {
+    const double half_base_m = height_m * std::tan(0.5 * apex_rad);
+    constexpr double half_length_m = 0.05;
+    std::vector<Vec3> vertices;
+    for (const double y : {-half_length_m, half_length_m}) {
+        vertices.emplace_back(0.0, y, 0.0);
+        vertices.emplace_back(-half_base_m, y, -height_m);
+        vertices.emplace_back(half_base_m, y, -height_m);
+    }
+    return prepare_mesh(
+        std::move(vertices),
+        {{0, 1, 2}, {3, 5, 4}, {0, 3, 4}, {0, 4, 1}, {1, 4, 5}, {1, 5, 2}, {2, 5, 3}, {2, 3, 0}});
+}
+
+// @param light  relative spectral distribution.
+Case at_least_deviation(const std::string& id, const std::string& title,
+                        const spectral::Spectrum& light, double least_nm, double beam_width_m,
+                        std::uint32_t phases) {
+    const double least_index = index_at(least_nm);
+    const truth::PrismScreen geometry{
+        apex_rad,    truth::least_deviation_incidence_rad(least_index, apex_rad),
+        least_index, 0.035,
+        1.0,         beam_width_m};
+
+    SceneBuilder scene;
+    const MediumId glass = scene.medium(1.0);
+    std::vector<double> wavelengths_nm;
+    std::vector<double> indices;
+    for (int nm = 360; nm <= 830; ++nm) {
+        wavelengths_nm.push_back(nm);
+        indices.push_back(index_at(nm));
+    }
+    const spectral::Spectrum index(wavelengths_nm, indices, spectral::Outside::hold);
+    scene.parts.spectra[scene.parts.media[glass].index] = index;
+    scene.parts.media[glass].dispersive = true;
+    scene.solid("prism", MeshInstance{prism_mesh(), Placement::Identity()}, glass);
+    // Takes what the exit face reflects: after three reflections it would join the beam.
+    scene.object("base", Rectangle{{-0.033, -0.049, -0.059}, {0.066, 0, 0}, {0, 0.098, 0}},
+                 scene.black());
+
+    const double half = 0.5 * apex_rad;
+    const Vec3 entry_normal(-std::cos(half), 0.0, std::sin(half));
+    const Vec3 exit_normal(std::cos(half), 0.0, std::sin(half));
+    const Vec3 up_entry(std::sin(half), 0.0, std::cos(half));
+    const Vec3 down_exit(std::sin(half), 0.0, -std::cos(half));
+    const double incidence = geometry.incidence_rad;
+    const Vec3 in = -std::cos(incidence) * entry_normal + std::sin(incidence) * up_entry;
+    const Vec3 out = std::cos(incidence) * exit_normal + std::sin(incidence) * down_exit;
+    const Vec3 across_in = Vec3::UnitY().cross(in);
+    const Vec3 start = -geometry.entry_m * up_entry - 0.2 * in;
+    constexpr double beam_length_m = 0.02;
+    scene.light("beam",
+                BeamLight{Rectangle{start - 0.5 * beam_width_m * across_in -
+                                        0.5 * beam_length_m * Vec3::UnitY(),
+                                    beam_width_m * across_in, beam_length_m * Vec3::UnitY()},
+                          in},
+                flux_lm);
+    scene.parts.lights.back().flux_w_per_nm =
+        scene.parts.add(spectral::scaled_to_luminous(light, flux_lm));
+
+    const Vec3 middle = geometry.entry_m * down_exit + geometry.screen_m * out;
+    // In the plane of section, toward larger deviation.
+    const Vec3 beyond = -std::sin(incidence) * exit_normal + std::cos(incidence) * down_exit;
+    constexpr double sheet_m = 0.3;
+    const Vec3 corner = middle - 0.15 * Vec3::UnitY();
+    scene.receiver(scene.object("beyond", Rectangle{corner, sheet_m * beyond, 0.3 * Vec3::UnitY()},
+                                scene.black()));
+    scene.receiver(scene.object(
+        "before", Rectangle{corner - sheet_m * beyond, sheet_m * beyond, 0.3 * Vec3::UnitY()},
+        scene.black()));
+
+    const auto light_at = [&](double nm) { return light.at(nm); };
+    const auto landing = [&](double nm) { return truth::prism_landing(geometry, index.at(nm)); };
+    const double far = flux_lm * truth::luminous_mean(light_at, [&](double nm) {
+                           return landing(nm).flux_beyond();
+                       });
+    const double all = flux_lm * truth::luminous_mean(light_at, [&](double nm) {
+                           return landing(nm).transmittance;
+                       });
+    // The sheets' order of normals decides which side is the front; both sides are read.
+    return {.id = id,
+            .title = title,
+            .source =
+                "n = sin((A + D) / 2) / sin(A / 2): Born and Wolf, 7th ed., 4.7.2; Fresnel "
+                "with s and p apart",
+            .scene = std::move(scene.parts),
+            .settings = effort(phases, 8000),
+            .checks = {
+                {"beyond least deviation", "luminous flux", "lm", far, 1e-5 * all, sensor(1), 0.02},
+                {"before it", "luminous flux", "lm", all - far, 1e-5 * all, sensor(3), 0.02}}};
+}
+
+// Light within a nanometre of one wavelength.
+spectral::Spectrum line(double nm) {
+    return {{nm - 1.0, nm, nm + 1.0}, {0.0, 1.0, 0.0}, spectral::Outside::zero};
+}
+
+}  // namespace
+
+std::vector<Case> prism_cases() {
+    std::vector<Case> cases;
+    for (const double nm : {480.0, 546.0, 644.0}) {
+        cases.push_back(at_least_deviation(
+            fmt::format("prism/{:g}-nm", nm),
+            fmt::format("beam of {:g} nm at least deviation, cut in two at its middle", nm),
+            line(nm), nm, 0.004, 96));
+    }
+    cases.push_back(at_least_deviation("prism/white",
+                                       "white beam spread by a prism, cut in two at 560 nm", 1.0,
+                                       560.0, 0.002, 192));
+    return cases;
+}
+
+}  // namespace lucerna::validation

@@ -1,0 +1,120 @@
+// Caustics of a ball and of a cylinder of glass in a parallel beam, on a screen behind.
+#include <fmt/format.h>
+
+#include "validation/cases.h"
+#include "validation/scene_builder.h"
+#include "validation/truth/round_lens.h"
+
+namespace lucerna::validation {
+namespace {
+
+using namespace optics;
+using truth::RoundLens;
+
+constexpr double radius_m = 0.03;
+constexpr double beam_irradiance = 1000.0;  // lx
+constexpr double beam_half_width_m = 1.5 * radius_m;
+// Dark, so that light between screen and lens stays below 1e-5 of the caustic: 0.002 times the
+// 4 % to 25 % of a half space that the lens takes, times the 8 % that it reflects.
+constexpr double screen_reflectance = 0.002;
+
+// Lens at the origin, beam along z. Points lie half a millimetre before the screen.
+// @param heights  from the axis, in radii of the lens; away from folds.
+Case behind(const std::string& id, const RoundLens& lens, const std::vector<double>& heights,
+            std::uint32_t phases, std::uint32_t rays) {
+    SceneBuilder scene;
+    const MediumId glass = scene.medium(lens.index, lens.absorption_per_m);
+    const Vec3 start(0.0, 0.0, -3.0 * radius_m);
+    constexpr double beam_half_length_m = 0.05;
+    if (lens.is_ball) {
+        scene.solid("ball", Sphere{Vec3::Zero(), radius_m}, glass);
+        const Disk section{start, Vec3::UnitZ(), beam_half_width_m};
+        scene.light("beam", BeamLight{section, Vec3::UnitZ()}, beam_irradiance * area_m2(section));
+    } else {
+        scene.solid("cylinder", Cylinder{{0, -0.2, 0}, {0, 0.2, 0}, radius_m}, glass);
+        const Rectangle section{start - Vec3(beam_half_width_m, beam_half_length_m, 0.0),
+                                {2.0 * beam_half_width_m, 0, 0},
+                                {0, 2.0 * beam_half_length_m, 0}};
+        scene.light("beam", BeamLight{section, Vec3::UnitZ()}, beam_irradiance * area_m2(section));
+    }
+    const double screen_m = lens.screen_m + 0.0005;
+    scene.object("screen", Rectangle{{-1, -1, screen_m}, {0, 2, 0}, {2, 0, 0}},
+                 scene.diffuse(screen_reflectance));
+
+    Case result{
+        .id = id,
+        .title = fmt::format("caustic of a {} of n = {:g}, absorption {:g} /m, at {:g} radii",
+                             lens.is_ball ? "ball" : "cylinder", lens.index, lens.absorption_per_m,
+                             lens.screen_m / radius_m),
+        .source = lens.is_ball
+                      ? "E = sum of E0 T(h) h |dh/dx| / x over branches, rays of Born and "
+                        "Wolf, 7th ed., 4.1 and 1.5.2; orders 0 to 12 of internal reflection"
+                      : "E = sum of E0 T(h) |dh/dx| over branches, rays of Born and Wolf, "
+                        "7th ed., 4.1 and 1.5.2; orders 0 to 12 of internal reflection",
+        .scene = {},
+        .settings = effort(phases, rays, 16),
+        .checks = {}};
+    const auto irradiance = [&](double at_m, double plane_m) {
+        RoundLens on_plane = lens;
+        on_plane.screen_m = plane_m;
+        const bool beside = at_m > radius_m && at_m < beam_half_width_m;
+        return beam_irradiance * (truth::lens_irradiance(on_plane, at_m) + (beside ? 1.0 : 0.0));
+    };
+    const auto sweep = [&](const std::string& what, double height) {
+        return SweepPoint{what, "distance from the axis [radii]", height};
+    };
+    std::vector<Vec3> points;
+    for (const double height : heights) {
+        const double at_m = height * radius_m;
+        points.emplace_back(at_m, 0.0, lens.screen_m);
+        const double truth = irradiance(at_m, lens.screen_m);
+        result.checks.push_back({.name = fmt::format("at {:g} radii", height),
+                                 .quantity = "illuminance",
+                                 .unit = "lx",
+                                 .truth = truth,
+                                 .truth_error = 2e-5 * truth,
+                                 .read = sensor(result.checks.size()),
+                                 .detects_relative = 0.02,
+                                 .sweep = sweep("illuminance behind the lens", height)});
+    }
+    scene.points(points, -Vec3::UnitZ());
+    for (const double height : heights) {
+        const double at_m = height * radius_m;
+        const Vec3 target(at_m, 0.0, screen_m);
+        // From aside, so that the lens does not hide the screen; sees half a millimetre.
+        scene.meter(target + Vec3(0.12, 0.0, -0.05), target, 0.001);
+        const double truth = screen_reflectance / pi * irradiance(at_m, screen_m);
+        result.checks.push_back({.name = fmt::format("screen at {:g} radii", height),
+                                 .quantity = "luminance",
+                                 .unit = "cd/m2",
+                                 .truth = truth,
+                                 .truth_error = 5e-5 * truth,
+                                 .read = sensor(result.checks.size()),
+                                 .detects_relative = 0.02,
+                                 .sweep = sweep("luminance of the screen", height)});
+    }
+    result.scene = std::move(scene.parts);
+    return result;
+}
+
+}  // namespace
+
+std::vector<Case> ball_lens_cases() {
+    return {behind("ball_lens/beyond-focus", {true, radius_m, 1.5, 0.0, 4.0 * radius_m},
+                   {0.2, 0.6, 1.2}, 64, 60000),
+            behind("ball_lens/absorbing", {true, radius_m, 1.7, 10.0, 3.0 * radius_m},
+                   {0.3, 0.7, 1.2}, 64, 60000),
+            behind("ball_lens/before-focus", {true, radius_m, 1.3, 0.0, 1.1 * radius_m},
+                   {0.08, 0.16}, 64, 60000)};
+}
+
+std::vector<Case> cylinder_lens_cases() {
+    return {behind("cylinder_lens/beyond-focus", {false, radius_m, 1.5, 0.0, 4.0 * radius_m},
+                   {0.2, 0.6, 1.2}, 64, 60000),
+            behind("cylinder_lens/absorbing", {false, radius_m, 1.7, 10.0, 3.0 * radius_m},
+                   {0.3, 0.7, 1.2}, 64, 60000),
+            behind("cylinder_lens/before-focus", {false, radius_m, 1.3, 0.0, 1.1 * radius_m},
+                   {0.08, 0.16}, 64, 60000)};
+}
+
+}  // namespace lucerna::validation

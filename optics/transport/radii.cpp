@@ -27,20 +27,24 @@ double median_square_distance(const std::vector<Vec3>& points) {
     return probes[probes.size() / 2];
 }
 
-// The widest radius, at most limit_m, at which the photon density around the points differs from
-// that at the radius 1 / sqrt(2) times as wide as a kernel bias of 5 % of it would make it.
-double radius_of_small_bias(const std::vector<Vec3>& photons,
-                            const std::vector<SensorPlanes::Point>& points, double limit_m) {
-    constexpr double small_bias = 0.05;
+// What the bias of a kernel may be, as a share of the light and root mean square over its places;
+// about the square of it is left when it is taken off.
+constexpr double small_sensor_bias = 0.05;
+constexpr double small_surface_bias = 0.15;
+
+// The widest radius, at most limit_m, at which the photon density around the points shows no more
+// than that bias; not so narrow that hardly a photon is left.
+double radius_of_small_bias(const std::vector<Vec3>& photons, const std::vector<Vec3>& points,
+                            double limit_m, double small_bias) {
     constexpr std::size_t most_points = 64;
-    constexpr double least_photons = 40.0;  // per point, so that a bias of that size shows
+    constexpr double least_photons = 4.0;  // per point
     const std::size_t step = std::max<std::size_t>(1, points.size() / most_points);
     std::vector<std::vector<double>> distances_m;  // per point, sorted
     for (std::size_t i = 0; i < points.size(); i += step) {
         auto& of_point = distances_m.emplace_back();
         for (const Vec3& photon : photons) {
-            const double distance_m = (photon - points[i].position).norm();
-            if (distance_m < limit_m) of_point.push_back(distance_m);
+            const double distance_m = (photon - points[i]).norm();
+            if (distance_m < limit_m && distance_m > 0.0) of_point.push_back(distance_m);
         }
         std::sort(of_point.begin(), of_point.end());
     }
@@ -48,6 +52,8 @@ double radius_of_small_bias(const std::vector<Vec3>& photons,
         return static_cast<double>(std::lower_bound(sorted.begin(), sorted.end(), radius_m) -
                                    sorted.begin());
     };
+    // A lucky look at one radius must not decide: the next narrower one has to pass as well.
+    bool wider_passed = false;
     for (double radius_m = limit_m;; radius_m /= std::numbers::sqrt2) {
         double photon_count = 0.0;
         double bias_square = 0.0;
@@ -62,8 +68,10 @@ double radius_of_small_bias(const std::vector<Vec3>& photons,
             square += all * all;
             photon_count += all;
         }
-        if (photon_count < least_photons * static_cast<double>(distances_m.size())) return 0.0;
-        if (bias_square <= small_bias * small_bias * square) return radius_m;
+        const bool passed = bias_square <= small_bias * small_bias * square;
+        if (passed && wider_passed) return std::numbers::sqrt2 * radius_m;
+        wider_passed = passed;
+        if (photon_count < least_photons * static_cast<double>(distances_m.size())) return radius_m;
     }
 }
 
@@ -79,7 +87,8 @@ Radii Radii::at_phase(std::uint32_t number) const {
 }
 
 Radii pilot_radii(const Stage& stage, const SensorPlanes& planes,
-                  const std::vector<Photon>& photons, double photons_per_kernel, double scale) {
+                  const std::vector<Photon>& photons, double photons_per_kernel, double scale,
+                  bool seen) {
     std::vector<std::vector<Vec3>> positions(stage.patch_count() + planes.count());
     for (const Photon& photon : photons) {
         positions[kernel_patch(stage, photon.point)].push_back(photon.point.position);
@@ -100,10 +109,15 @@ Radii pilot_radii(const Stage& stage, const SensorPlanes& planes,
         }
         radius_m = std::min(limit_m, radius_m);
         if (sensor) {
-            radius_m = std::max(
-                radius_m,
-                radius_of_small_bias(positions[patch],
-                                     planes.points_of(patch - stage.patch_count()), limit_m));
+            std::vector<Vec3> points;
+            for (const auto& point : planes.points_of(patch - stage.patch_count())) {
+                points.push_back(point.position);
+            }
+            radius_m = std::max(radius_m, radius_of_small_bias(positions[patch], points, limit_m,
+                                                               small_sensor_bias));
+        } else if (seen && positions[patch].size() > 2 * neighbours) {
+            radius_m = radius_of_small_bias(positions[patch], positions[patch], radius_m,
+                                            small_surface_bias);
         }
         radii_m.push_back(radius_m);
     }

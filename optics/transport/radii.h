@@ -34,9 +34,11 @@ private:
 /// No radius exceeds an eighth of the patch's size, nor a 20th of the scene's radius.
 ///
 /// A sensor gathers once per phase for all its rays, and can afford a wide kernel: it gets the
-/// widest that has a bias of 5 % of the light at its points, root mean square, so that less than
-/// 1 % is left when that is taken off.
+/// widest that shows a bias of 5 % of the light at its points at most, root mean square, so that
+/// less than 1 % is left when that is taken off. Where kernels are `seen`, those of surfaces are
+/// narrowed until they show no more than 15 %.
 Radii pilot_radii(const Stage& stage, const SensorPlanes& planes,
-                  const std::vector<Photon>& photons, double photons_per_kernel, double scale);
+                  const std::vector<Photon>& photons, double photons_per_kernel, double scale,
+                  bool seen);
 
 }  // namespace lucerna::optics

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::uint32_t rays_per_block = 256;
 constexpr std::uint32_t blocks_per_chunk = 64;  // deposits of a chunk are held at once
-constexpr std::uint32_t pilot_rays = 1 << 15;
+constexpr std::uint32_t min_pilot_rays = 1 << 15;
 constexpr std::uint32_t min_forward_rays = 20000;
 // Secondary forward rays per backward ray: their noise is averaged over all second scattering
 // events that a kernel serves, so that few are enough (the same delta with 1 and with 1/4 in
@@ -192,17 +192,19 @@ private:
     void pilot() {
         const Phase phase(stage_, settings_.seed, std::numeric_limits<std::uint32_t>::max());
         ForwardTally unused(stage_.parts());
-        const auto radii = [&](Reach reach, std::uint32_t rays, double photons_per_kernel) {
+        const auto radii = [&](Reach reach, std::uint32_t rays, double photons_per_kernel,
+                               bool seen) {
+            const std::uint32_t pilot_rays = std::max(rays, min_pilot_rays);
             const double scale = static_cast<double>(rays) / pilot_rays;
             const auto photons =
                 trace_photons(phase, RandomPurpose::pilot, reach, pilot_rays, unused);
-            return pilot_radii(stage_, planes_, photons, photons_per_kernel, scale);
+            return pilot_radii(stage_, planes_, photons, photons_per_kernel, scale, seen);
         };
         seen_radii_ =
             radii(collection_.first_gather & mask(History::indirect) ? Reach::whole_path
                                                                      : Reach::first_scattering,
-                  caustic_rays_, photons_per_seen_kernel);
-        hidden_radii_ = radii(Reach::whole_path, secondary_rays_, photons_per_hidden_kernel);
+                  caustic_rays_, photons_per_seen_kernel, true);
+        hidden_radii_ = radii(Reach::whole_path, secondary_rays_, photons_per_hidden_kernel, false);
     }
 
     // Photons of all rays of a trace, in the order of the rays. Those of a trace to the first

@@ -74,7 +74,7 @@ Case behind(const std::string& id, const RoundLens& lens, const std::vector<doub
                                  .truth = truth,
                                  .truth_error = 2e-5 * truth,
                                  .read = sensor(result.checks.size()),
-                                 .detects_relative = 0.02,
+                                 .detects_relative = 0.06,
                                  .sweep = sweep("illuminance behind the lens", height)});
     }
     scene.points(points, -Vec3::UnitZ());
@@ -90,7 +90,7 @@ Case behind(const std::string& id, const RoundLens& lens, const std::vector<doub
                                  .truth = truth,
                                  .truth_error = 5e-5 * truth,
                                  .read = sensor(result.checks.size()),
-                                 .detects_relative = 0.02,
+                                 .detects_relative = 0.2,
                                  .sweep = sweep("luminance of the screen", height)});
     }
     result.scene = std::move(scene.parts);

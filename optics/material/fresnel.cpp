@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 
 namespace lucerna::optics {
 
@@ -12,20 +11,32 @@ double square(double x) {
     return x * x;
 }
 
+// Real amplitudes r_s, r_p of a boundary between transparent media; under total internal reflection
+// both are 1 in modulus, and g = sqrt(sin_i^2 - eta^2) gives their phases.
+struct DielectricAmplitudes {
+    double s = 1.0, p = 1.0;
+    bool total = false;
+    double g = 0.0;
+};
+
+DielectricAmplitudes dielectric_amplitudes(double cos_incidence, double eta) {
+    // Equal indices: the formula below is 0/0 at grazing incidence.
+    if (eta == 1.0) return {.s = 0.0, .p = 0.0};
+    // cos_t^2 eta^2 = eta^2 - sin_i^2, written so that it keeps its digits near eta = 1.
+    const double cos_t_eta_squared = (eta - 1.0) * (eta + 1.0) + square(cos_incidence);
+    if (cos_t_eta_squared <= 0.0) return {.total = true, .g = std::sqrt(-cos_t_eta_squared)};
+    const double eta_cos_t = std::sqrt(cos_t_eta_squared);
+    // Born and Wolf, Principles of Optics, 7th ed., section 1.5.2, eqs. 21 and 32
+    return {
+        .s = (cos_incidence - eta_cos_t) / (cos_incidence + eta_cos_t),
+        .p = (square(eta) * cos_incidence - eta_cos_t) / (square(eta) * cos_incidence + eta_cos_t)};
+}
+
 }  // namespace
 
 FresnelReflectance fresnel_dielectric(double cos_incidence, double eta) {
-    // Equal indices: the formula below is 0/0 at grazing incidence.
-    if (eta == 1.0) return {0.0, 0.0};
-    // cos_t^2 eta^2 = eta^2 - sin_i^2, written so that it keeps its digits near eta = 1.
-    const double cos_t_eta_squared = (eta - 1.0) * (eta + 1.0) + square(cos_incidence);
-    if (cos_t_eta_squared <= 0.0) return {1.0, 1.0};
-    const double eta_cos_t = std::sqrt(cos_t_eta_squared);
-    // Born and Wolf, Principles of Optics, 7th ed., section 1.5.2, eqs. 21 and 32
-    const double s = (cos_incidence - eta_cos_t) / (cos_incidence + eta_cos_t);
-    const double p =
-        (square(eta) * cos_incidence - eta_cos_t) / (square(eta) * cos_incidence + eta_cos_t);
-    return {square(s), square(p)};
+    const DielectricAmplitudes amplitude = dielectric_amplitudes(cos_incidence, eta);
+    return {square(amplitude.s), square(amplitude.p)};
 }
 
 FresnelReflectance fresnel_conductor(double cos_incidence, double n, double k) {
@@ -69,21 +80,6 @@ Lanes fresnel_conductor(double cos_incidence, const Lanes& n, const Lanes& k) {
 
 namespace {
 
-Mueller<double> mueller(const FresnelReflectance& reflectance, std::complex<double> s_conj_p) {
-    return {0.5 * (reflectance.s + reflectance.p), 0.5 * (reflectance.s - reflectance.p),
-            s_conj_p.real(), s_conj_p.imag()};
-}
-
-// r_s r_p* of a boundary with the relative index N, where root = sqrt(N^2 - sin^2). From the
-// amplitudes of Born and Wolf, section 1.5.2, eq. 21a, with complex angles as in section 14.2.
-std::complex<double> amplitude_product(double cosine, std::complex<double> index_squared,
-                                       std::complex<double> root) {
-    const std::complex<double> s = (cosine - root) / (cosine + root);
-    const std::complex<double> p =
-        (index_squared * cosine - root) / (index_squared * cosine + root);
-    return s * std::conj(p);
-}
-
 template <typename Of>
 Mueller<Lanes> on_lanes(const Of& of_lane) {
     Mueller<Lanes> lanes;
@@ -100,20 +96,36 @@ Mueller<Lanes> on_lanes(const Of& of_lane) {
 }  // namespace
 
 Mueller<double> dielectric_reflection(double cos_incidence, double eta) {
-    if (eta == 1.0) return {0.0, 0.0, 0.0, 0.0};
-    const double root_squared = (eta - 1.0) * (eta + 1.0) + square(cos_incidence);
-    const std::complex<double> root = root_squared > 0.0
-                                          ? std::sqrt(root_squared)
-                                          : std::complex<double>(0.0, std::sqrt(-root_squared));
-    return mueller(fresnel_dielectric(cos_incidence, eta),
-                   amplitude_product(cos_incidence, square(eta), root));
+    const DielectricAmplitudes amplitude = dielectric_amplitudes(cos_incidence, eta);
+    if (amplitude.total) {
+        // r_s r_p* = exp(i delta), tan(delta / 2) = cos g / sin^2: Born and Wolf, section 1.5.4,
+        // eq. 60.
+        const double sin2 = 1.0 - square(cos_incidence);
+        const double cos_g = cos_incidence * amplitude.g;
+        const double per_squares = 1.0 / (square(sin2) + square(cos_g));
+        return {1.0, 0.0, (square(sin2) - square(cos_g)) * per_squares,
+                2.0 * sin2 * cos_g * per_squares};
+    }
+    const double s = square(amplitude.s);
+    const double p = square(amplitude.p);
+    return {0.5 * (s + p), 0.5 * (s - p), amplitude.s * amplitude.p, 0.0};
 }
 
 Mueller<double> conductor_reflection(double cos_incidence, double n, double k) {
-    const std::complex<double> index_squared = std::pow(std::complex<double>(n, k), 2);
-    const std::complex<double> root = std::sqrt(index_squared - (1.0 - square(cos_incidence)));
-    return mueller(fresnel_conductor(cos_incidence, n, k),
-                   amplitude_product(cos_incidence, index_squared, root));
+    const FresnelReflectance reflectance = fresnel_conductor(cos_incidence, n, k);
+    // With root = a + ib = sqrt((n + ik)^2 - sin^2), which has b >= 0 in a lossy metal,
+    // r_p / r_s = (sin^2 - cos root) / (sin^2 + cos root), so that
+    // r_s r_p* = R_s (sin^4 - cos^2 |root|^2 + 2i b cos sin^2) / |sin^2 + cos root|^2.
+    const double sin2 = 1.0 - square(cos_incidence);
+    const double real = square(n) - square(k) - sin2;
+    const double modulus = std::hypot(real, 2.0 * n * k);
+    const double larger = std::sqrt(0.5 * (modulus + std::abs(real)));
+    const double smaller = larger > 0.0 ? n * k / larger : 0.0;
+    const double a_cos = (real > 0.0 ? larger : smaller) * cos_incidence;
+    const double b_cos = (real > 0.0 ? smaller : larger) * cos_incidence;
+    const double factor = reflectance.s / (square(sin2 + a_cos) + square(b_cos));
+    return {0.5 * (reflectance.s + reflectance.p), 0.5 * (reflectance.s - reflectance.p),
+            factor * (square(sin2) - square(a_cos) - square(b_cos)), factor * 2.0 * b_cos * sin2};
 }
 
 Mueller<Lanes> dielectric_reflection(double cos_incidence, const Lanes& eta) {

@@ -1,5 +1,7 @@
 #include "optics/material/polarisation.h"
 
+#include <cmath>
+
 namespace lucerna::optics {
 
 void Polarisation::refer_to(const Vec3& axis, const Vec3& direction) {
@@ -56,7 +58,9 @@ void Polarisation::apply(const Number& mean, const Number& difference, const Num
     // Where next to nothing is left, rounding is not small beside it.
     const Lanes squared_degree = q_.square() + u_.square() + v_.square();
     if ((squared_degree > 1.0f).any()) {
-        const Lanes scale = squared_degree.max(1.0f).rsqrt();
+        // Not Eigen's sqrt(), whose last bit depends on the processor.
+        const Lanes scale =
+            squared_degree.max(1.0f).unaryExpr([](float x) { return 1.0f / std::sqrt(x); });
         q_ *= scale;
         u_ *= scale;
         v_ *= scale;

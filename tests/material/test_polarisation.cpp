@@ -2,6 +2,7 @@
 #include "optics/material/polarisation.h"
 
 #include <catch2/catch.hpp>
+#include <complex>
 
 #include "core/random.h"
 #include "core/sampling.h"
@@ -53,7 +54,35 @@ TEST_CASE("Fresnel's rhomb makes linearly polarised light circular", "[unit]") {
     // Twin: at another angle it does not.
     const Mueller<double> other = dielectric_reflection(std::cos(rad(70)), 1.0 / 1.51);
     light.go_through(other);
-    CHECK(std::abs(light.v()[0]) < 0.95);
+    CHECK(std::abs(light.v()[0]) < 0.95f);
+}
+
+TEST_CASE("The phase between s and p is that of the complex amplitudes", "[unit]") {
+    // Born and Wolf, 7th ed., section 1.5.2, eq. 21a, with a complex angle of refraction.
+    const auto [n, k] = GENERATE(table<double, double>({{1.5, 0.0},
+                                                        {1.0 / 1.5, 0.0},
+                                                        {0.3, 0.0},
+                                                        {0.2, 3.4},
+                                                        {1.1, 2.0},
+                                                        {1.5, 0.2},
+                                                        {1.0, 0.01}}));
+    const double angle_rad = GENERATE(0.0, 1e-4, 0.6, 0.73, 1.0, 1.3, 1.5707);
+    const double cosine = std::cos(angle_rad);
+    const std::complex<double> index(n, k);
+    const std::complex<double> root = std::sqrt(index * index - std::pow(std::sin(angle_rad), 2));
+    const std::complex<double> r_s = (cosine - root) / (cosine + root);
+    const std::complex<double> r_p =
+        (index * index * cosine - root) / (index * index * cosine + root);
+    const Mueller<double> metal = conductor_reflection(cosine, n, k);
+    INFO("n " << n << " k " << k << " angle " << angle_rad);
+    const auto check = [&](const Mueller<double>& m) {
+        CHECK_THAT(m.mean, WithinAbs(0.5 * (std::norm(r_s) + std::norm(r_p)), 1e-12));
+        CHECK_THAT(m.difference, WithinAbs(0.5 * (std::norm(r_s) - std::norm(r_p)), 1e-12));
+        CHECK_THAT(m.real, WithinAbs((r_s * std::conj(r_p)).real(), 1e-12));
+        CHECK_THAT(m.imaginary, WithinAbs((r_s * std::conj(r_p)).imag(), 1e-12));
+    };
+    check(metal);
+    if (k == 0.0) check(dielectric_reflection(cosine, n));
 }
 
 TEST_CASE("Reflection and refraction share the light between them", "[property]") {

@@ -18,6 +18,14 @@ constexpr std::array list{
     Family{"beer_lambert", "absorption over wavelength", beer_lambert_cases},
     Family{"invariance", "luminance behind and within glass", invariance_cases},
     Family{"colour", "colour of CIE illuminants through the engine", colour_cases},
+    Family{"polygon_light", "direct light of Lambertian surfaces", polygon_light_cases},
+    Family{"closed_box", "interreflection between six different walls", closed_box_cases},
+    Family{"cornell_room", "interreflection in a room that loses light", cornell_room_cases},
+    Family{"point_source", "inverse square and cosine law, C-gamma tables and their rotations",
+           point_source_cases},
+    Family{"mirrors", "specular reflection, once and many times", mirrors_cases},
+    Family{"sky_window", "daylight of a uniform sky through an opening", sky_window_cases},
+    Family{"cie171", "cases after CIE 171:2006, with truths of our own", cie171_cases},
 };
 
 }  // namespace

@@ -20,6 +20,13 @@ std::vector<Case> prism_cases();
 std::vector<Case> beer_lambert_cases();
 std::vector<Case> invariance_cases();
 std::vector<Case> colour_cases();
+std::vector<Case> polygon_light_cases();
+std::vector<Case> closed_box_cases();
+std::vector<Case> cornell_room_cases();
+std::vector<Case> point_source_cases();
+std::vector<Case> mirrors_cases();
+std::vector<Case> sky_window_cases();
+std::vector<Case> cie171_cases();
 
 struct Family {
     std::string_view name;

@@ -1,94 +1,34 @@
 // Direct light of rectangles and of measured luminaires, and absorption on its way.
 #include "tests/support/truth_checks.h"
+#include "validation/truth/luminaire.h"
 #include "validation/truth/polygon_light.h"
 #include "validation/truth/quadrature.h"
 
 using namespace lucerna;
 using namespace lucerna::optics;
 using truth::polygon_illuminance;
+using truth::rad_per_deg;
+using truth::total_flux_lm;
 using validation::SceneBuilder;
 
 namespace {
 
-const double rad_per_deg = pi / 180.0;
-
-// -- A luminaire with an asymmetric distribution, tilted and turned ------------------------------
-
-const std::vector<double> c_deg{0, 60, 135, 180, 240, 300, 360};
-const std::vector<double> gamma_deg{0, 20, 45, 70, 90, 120};
-const std::vector<std::vector<double>> table_cd{
-    {300, 420, 250, 90, 30, 0}, {300, 380, 310, 150, 60, 0}, {300, 200, 150, 120, 20, 0},
-    {300, 150, 80, 60, 10, 0},  {300, 260, 190, 30, 5, 0},   {300, 510, 440, 210, 90, 0},
-    {300, 420, 250, 90, 30, 0}};
-
-double between(const std::vector<double>& grid, const std::vector<double>& values, double at) {
-    for (std::size_t i = 1; i < grid.size(); ++i) {
-        if (at > grid[i]) continue;
-        const double t = (at - grid[i - 1]) / (grid[i] - grid[i - 1]);
-        return values[i - 1] + t * (values[i] - values[i - 1]);
-    }
-    return 0.0;
-}
-
-// I(C, gamma) [cd], bilinear in the angles.
-double intensity_cd(double c, double gamma) {
-    std::vector<double> of_planes;
-    for (const auto& plane : table_cd) of_planes.push_back(between(gamma_deg, plane, gamma));
-    return between(c_deg, of_planes, c);
-}
-
-// Axes of the luminaire in the scene: C = 0, C = 90 and up (against gamma = 0).
-struct Axes {
-    Vec3 c0, c90, up;
-};
-
-Axes axes() {
-    // Turned by 25 deg about the vertical, then its C = 0 side lifted by 15 deg.
-    const double turn = 25 * rad_per_deg;
-    const double lift = 15 * rad_per_deg;
-    const Vec3 c90(-std::sin(turn), std::cos(turn), 0.0);
-    const Vec3 level(std::cos(turn), std::sin(turn), 0.0);
-    return {std::cos(lift) * level + std::sin(lift) * Vec3::UnitZ(), c90,
-            std::cos(lift) * Vec3::UnitZ() - std::sin(lift) * level};
-}
+// Turned by 25 deg about the vertical, then its C = 0 side lifted by 15 deg.
+const truth::Axes luminaire_axes = truth::axes(25.0, 15.0);
 
 double intensity_toward(const Vec3& direction) {
-    const Axes a = axes();
-    const double gamma = std::acos(-direction.dot(a.up)) / rad_per_deg;
-    double c = std::atan2(direction.dot(a.c90), direction.dot(a.c0)) / rad_per_deg;
-    if (c < 0.0) c += 360.0;
-    return intensity_cd(c, gamma);
-}
-
-double total_flux_lm() {
-    double flux = 0.0;
-    for (std::size_t i = 1; i < c_deg.size(); ++i) {
-        flux += truth::integral(
-            [&](double c) {
-                double of_plane = 0.0;
-                for (std::size_t g = 1; g < gamma_deg.size(); ++g) {
-                    of_plane += truth::integral(
-                        [&](double gamma) {
-                            return intensity_cd(c, gamma) * std::sin(gamma * rad_per_deg) *
-                                   rad_per_deg;
-                        },
-                        gamma_deg[g - 1], gamma_deg[g], 1);
-                }
-                return of_plane * rad_per_deg;
-            },
-            c_deg[i - 1], c_deg[i], 1);
-    }
-    return flux;
+    return truth::intensity_toward(luminaire_axes, direction);
 }
 
 Luminaire luminaire(const Vec3& position) {
     Luminaire light;
     light.position = position;
-    const Axes a = axes();
+    const truth::Axes& a = luminaire_axes;
     light.to_photometric.row(0) = a.c0.transpose();
     light.to_photometric.row(1) = a.c90.transpose();
     light.to_photometric.row(2) = a.up.transpose();
-    light.intensity = std::make_shared<const IntensityDistribution>(c_deg, gamma_deg, table_cd);
+    light.intensity = std::make_shared<const IntensityDistribution>(truth::c_deg, truth::gamma_deg,
+                                                                    truth::table_cd);
     return light;
 }
 
@@ -203,7 +143,7 @@ TEST_CASE("Direct light: an asymmetric point luminaire, tilted and turned", "[an
 TEST_CASE("Direct light: a luminaire with an opening, from nearby", "[analytic]") {
     // Uniform over the opening: E = integral over it of I(w) / A cos / d^2.
     const Vec3 position(0.1, 0.2, 1.0);
-    const Axes a = axes();
+    const truth::Axes& a = luminaire_axes;
     const double length_m = 0.6;
     const double width_m = 0.4;
     // The opening's normal points to gamma = 0.

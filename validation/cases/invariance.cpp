@@ -77,18 +77,18 @@ Case ball(const std::string& id, double index, double rho) {
     scene.points({centre}, Vec3::UnitZ());
     const double luminance = emitted / (1.0 - rho);
     const double within = index * index * luminance;
-    return {.id = id,
-            .title = fmt::format("ball of n = {:g} in a furnace of reflectance {:g}", index, rho),
-            .source =
-                "L = Le / (1 - rho) in air and n^2 L in glass: L / n^2 is invariant and a "
-                "lossless ball gives what it takes (Born and Wolf, 7th ed., 4.8.1)",
-            .scene = std::move(scene.parts),
-            .settings = effort(128, 8000, 16),
-            .checks = {{"the ball from outside", "luminance", "cd/m2", luminance, 0.0, sensor(0),
-                        0.03},
-                       {"the walls from within", "luminance", "cd/m2", within, 0.0, sensor(1)},
-                       {"the centre of the ball", "illuminance", "lx", pi * within, 0.0, sensor(2),
-                        0.04}}};
+    return {
+        .id = id,
+        .title = fmt::format("ball of n = {:g} in a furnace of reflectance {:g}", index, rho),
+        .source =
+            "L = Le / (1 - rho) in air and n^2 L in glass: L / n^2 is invariant and a "
+            "lossless ball gives what it takes (Born and Wolf, 7th ed., 4.8.1)",
+        .scene = std::move(scene.parts),
+        .settings = effort(128, 8000, 16),
+        .checks = {
+            {"the ball from outside", "luminance", "cd/m2", luminance, 0.0, sensor(0), 0.03},
+            {"the walls from within", "luminance", "cd/m2", within, 0.0, sensor(1)},
+            {"the centre of the ball", "illuminance", "lx", pi * within, 0.0, sensor(2), 0.04}}};
 }
 
 }  // namespace

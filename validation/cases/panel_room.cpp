@@ -1,0 +1,109 @@
+#include "validation/cases/panel_room.h"
+
+#include <fmt/format.h>
+
+namespace lucerna::validation {
+namespace {
+
+// Solutions of one room, from coarse to fine.
+struct Solutions {
+    truth::RoomRadiosity cells_4, cells_8, cells_6, cells_12;
+
+    explicit Solutions(const std::vector<truth::Panel>& panels)
+        : cells_4(panels, 4), cells_8(panels, 8), cells_6(panels, 6), cells_12(panels, 12) {}
+
+    // A functional as the truth of a check. Its error is bounded by its change from the coarser to
+    // the finer pair (tests/validation/test_truths.cpp), and taken as 1e-4 at least.
+    template <typename Functional>
+    void state(Check& check, const Functional& functional) const {
+        check.truth = extrapolated(cells_6, cells_12, functional);
+        const double change = std::abs(check.truth - extrapolated(cells_4, cells_8, functional));
+        check.truth_error = std::max(change, 1e-4 * check.truth);
+    }
+};
+
+Vec3 inward_normal(const truth::Panel& panel) {
+    return (panel.plane_m == 0.0 ? 1.0 : -1.0) * Vec3::Unit(panel.axis);
+}
+
+}  // namespace
+
+optics::Rectangle rectangle(const truth::Panel& panel) {
+    const int u = (panel.axis + 1) % 3;
+    const int v = (panel.axis + 2) % 3;
+    Vec3 corner = Vec3::Zero();
+    corner[panel.axis] = panel.plane_m;
+    corner[u] = panel.span_u_m[0];
+    corner[v] = panel.span_v_m[0];
+    const Vec3 edge_u = (panel.span_u_m[1] - panel.span_u_m[0]) * Vec3::Unit(u);
+    const Vec3 edge_v = (panel.span_v_m[1] - panel.span_v_m[0]) * Vec3::Unit(v);
+    if (inward_normal(panel)[panel.axis] > 0.0) return {corner, edge_u, edge_v};
+    return {corner, edge_v, edge_u};
+}
+
+double area_m2(const truth::Panel& panel) {
+    return (panel.span_u_m[1] - panel.span_u_m[0]) * (panel.span_v_m[1] - panel.span_v_m[0]);
+}
+
+Case room_case(const std::string& id, const std::string& title,
+               const std::vector<NamedPanel>& panels, const std::vector<WallPoint>& points,
+               const optics::Settings& settings) {
+    std::vector<truth::Panel> plain;
+    for (const NamedPanel& own : panels) plain.push_back(own.panel);
+    const Solutions solutions(plain);
+
+    SceneBuilder scene;
+    std::vector<Check> checks;
+    for (const WallPoint& point : points) {
+        Check check{point.name, "illuminance", "lx", 0.0, 0.0, sensor(checks.size()), 0.015};
+        solutions.state(check, [&](const truth::RoomRadiosity& room) {
+            return room.illuminance(point.position, point.normal);
+        });
+        checks.push_back(check);
+        scene.points({point.position}, point.normal);
+    }
+    std::size_t next = points.size();
+    for (std::size_t i = 0; i < panels.size(); ++i) {
+        const truth::Panel& panel = panels[i].panel;
+        if (panel.reflectance == 0.0) continue;
+        const optics::ObjectId wall =
+            scene.object(panels[i].name, rectangle(panel), scene.diffuse(panel.reflectance));
+        if (panel.emitted_luminance > 0.0) scene.area_light(wall, panel.emitted_luminance);
+        scene.receiver(wall);
+        Check check{fmt::format("mean of {}", panels[i].name),  "illuminance", "lx", 0.0, 0.0,
+                    scaled(sensor(next), 1.0 / area_m2(panel)), 0.015};
+        solutions.state(check,
+                        [&](const truth::RoomRadiosity& room) { return room.mean_illuminance(i); });
+        checks.push_back(check);
+        next += 2;  // front and back
+    }
+    return {id,
+            title,
+            "radiosity integral equation, Galerkin with exchange factors in closed form "
+            "(Howell's catalogue, C-13 and C-15), extrapolated",
+            scene.parts,
+            settings,
+            checks};
+}
+
+void add_sky(SceneBuilder& scene, const optics::Rectangle& opening, double luminance) {
+    const Vec3 u = opening.edge_u.normalized();
+    const Vec3 v = opening.edge_v.normalized();
+    const Vec3 out = -u.cross(v);
+    const double overhang_m = 0.1;
+    const double depth_m = 0.3;
+    const Vec3 corner = opening.corner - overhang_m * (u + v);
+    const Vec3 eu = opening.edge_u + 2.0 * overhang_m * u;
+    const Vec3 ev = opening.edge_v + 2.0 * overhang_m * v;
+    const Vec3 eo = depth_m * out;
+    const optics::BsdfId black = scene.black();
+    using optics::Rectangle;
+    const std::array<Rectangle, 5> faces{Rectangle{corner + eo, eu, ev},  // toward the room
+                                         Rectangle{corner, eo, ev},  // the sides, toward each other
+                                         Rectangle{corner + eu, ev, eo}, Rectangle{corner, eu, eo},
+                                         Rectangle{corner + ev, eo, eu}};
+    for (const Rectangle& face : faces)
+        scene.area_light(scene.object("sky", face, black), luminance);
+}
+
+}  // namespace lucerna::validation

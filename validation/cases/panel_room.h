@@ -1,0 +1,37 @@
+// Rooms of axis-aligned diffuse panels with their truth by radiosity, and skies behind openings.
+#pragma once
+
+#include "validation/case.h"
+#include "validation/scene_builder.h"
+#include "validation/truth/room_radiosity.h"
+
+namespace lucerna::validation {
+
+struct NamedPanel {
+    std::string name;
+    truth::Panel panel;  ///< those at coordinate 0 face up the axis, all others down
+};
+
+/// A point just inside a panel, where a sensor sees what the panel sees.
+struct WallPoint {
+    std::string name;
+    Vec3 position, normal;
+};
+
+optics::Rectangle rectangle(const truth::Panel& panel);
+double area_m2(const truth::Panel& panel);
+
+/// The room as a case: illuminance at the points, and mean illuminance of each panel that reflects
+/// anything, from the luminous flux on it. A panel of reflectance 0 is left out of the scene: an
+/// opening. The truth is extrapolated from 6 and 12 cells
+/// per panel and edge.
+Case room_case(const std::string& id, const std::string& title,
+               const std::vector<NamedPanel>& panels, const std::vector<WallPoint>& points,
+               const optics::Settings& settings);
+
+/// A uniform sky behind a rectangular opening whose normal u x v points into the room: a black
+/// luminous tray of five faces outside, wider than the opening, that fills the opening as seen from
+/// every point within.
+void add_sky(SceneBuilder& scene, const optics::Rectangle& opening, double luminance);
+
+}  // namespace lucerna::validation

@@ -1,0 +1,69 @@
+// Lambertian rectangles over a floor, by Lambert's formula.
+#include <fmt/format.h>
+
+#include "validation/cases.h"
+#include "validation/scene_builder.h"
+#include "validation/truth/polygon_light.h"
+
+namespace lucerna::validation {
+namespace {
+
+using namespace optics;
+
+constexpr double luminance = 2000.0;  // cd/m2
+const std::string source =
+    "Lambert, Photometria, 1760, sections 138 to 143; as Arvo, thesis 1995, eq. 2.41";
+
+Check illuminance(const std::string& name, const Rectangle& lamp, const Vec3& x, const Vec3& normal,
+                  std::size_t i) {
+    const double value = truth::polygon_illuminance(
+        truth::corners(lamp.corner, lamp.edge_u, lamp.edge_v), luminance, x, normal);
+    return {name, "illuminance", "lx", value, 0.0, sensor(i), 0.01};
+}
+
+// Along the floor, and the luminance of the floor at one of the points.
+Case over_a_floor(const std::string& id, const std::string& title, const Rectangle& lamp) {
+    constexpr double rho = 0.4;
+    SceneBuilder scene;
+    scene.area_light(scene.object("lamp", lamp, scene.black()), luminance);
+    scene.object("floor", Rectangle{{-5, -5, 0}, {10, 0, 0}, {0, 10, 0}}, scene.diffuse(rho));
+    std::vector<Vec3> points;
+    std::vector<Check> checks;
+    for (const double x : {-2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 2.0, 3.0}) {
+        points.emplace_back(x, 0.3, 0.0);
+        checks.push_back(illuminance(fmt::format("x = {:.1f} m", x), lamp, points.back(),
+                                     Vec3::UnitZ(), checks.size()));
+        checks.back().sweep = {id, "x [m]", x};
+    }
+    scene.points(points, Vec3::UnitZ());
+    scene.meter({0.2, 0.2, 1.0}, points[4], 0.01);
+    const double value = rho / pi * checks[4].truth;
+    // The cone is so narrow that the mean over it differs by less than 1e-4.
+    checks.push_back({"floor at x = 0.5 m", "luminance", "cd/m2", value, 1e-4 * value,
+                      sensor(checks.size()), 0.01});
+    return {id, title, source, scene.parts, effort(128, 100), checks};
+}
+
+}  // namespace
+
+std::vector<Case> polygon_light_cases() {
+    const Rectangle level{{-0.3, -0.5, 1.5}, {0.0, 1.0, 0.0}, {0.8, 0.0, 0.0}};
+    const Rectangle tilted{{-0.3, -0.5, 1.0}, {0.0, 1.0, 0.0}, {0.6, 0.0, 0.3}};
+    // Points whose horizon cuts the rectangle.
+    const Vec3 slanted = Vec3(1.0, 0.2, 0.5).normalized();
+    const std::vector<Vec3> positions{{-1.5, 0.2, 0.8}, {0.2, 0.1, 1.1}};
+    SceneBuilder scene;
+    scene.area_light(scene.object("lamp", level, scene.black()), luminance);
+    scene.points(positions, slanted);
+    return {over_a_floor("polygon_light/level", "level rectangle, 0.8 x 1 m, 1.5 m up", level),
+            over_a_floor("polygon_light/tilted", "tilted rectangle, 0.67 x 1 m", tilted),
+            {"polygon_light/horizon",
+             "rectangle partly behind the horizon of slanted sensors",
+             source,
+             scene.parts,
+             effort(128, 100),
+             {illuminance("from aside", level, positions[0], slanted, 0),
+              illuminance("from below", level, positions[1], slanted, 1)}}};
+}
+
+}  // namespace lucerna::validation

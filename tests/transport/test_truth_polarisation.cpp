@@ -97,7 +97,7 @@ TEST_CASE("Two mirrors in turned planes of incidence act as polariser and analys
         scene.meter(place_3, place_2, 0.004);
     }
     const Result result = test::run(scene, Method::combined,
-                                    forward ? test::Effort{130, 8000} : test::Effort{200, 100});
+                                    forward ? test::Effort{130, 8000} : test::Effort{280, 100});
     const double whole = forward ? flux_lm : luminance;
     const Estimate& estimate = result.quantities[0].estimate;
     test::check_truth(estimate, whole * reflectance(turn_deg * pi / 180.0));

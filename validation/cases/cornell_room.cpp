@@ -19,9 +19,9 @@ Case cornell(const std::string& id, const std::string& title, double white, doub
         {"front", {1, 0.0, {0.0, 1.0}, {0.0, 1.0}, 0.0, 0.0}},
         {"back wall", {1, 1.0, {0.0, 1.0}, {0.0, 1.0}, white, 0.0}},
         {"floor", {2, 0.0, {0.0, 1.0}, {0.0, 1.0}, white, 0.0}},
-        {"front of ceiling", {2, 1.0, {0.0, 1.0}, {0.0, from}, white, 0.0}},
-        {"luminous strip", {2, 1.0, {0.0, 1.0}, {from, to}, white, 100.0}},
-        {"back of ceiling", {2, 1.0, {0.0, 1.0}, {to, 1.0}, white, 0.0}}};
+        {"front of ceiling", {2, 1.0, {0.0, 1.0}, {0.0, from}, white, 0.0}, false},
+        {"luminous strip", {2, 1.0, {0.0, 1.0}, {from, to}, white, 100.0}, false},
+        {"back of ceiling", {2, 1.0, {0.0, 1.0}, {to, 1.0}, white, 0.0}, false}};
     std::vector<WallPoint> points;
     for (const double x : {0.1, 0.3, 0.5, 0.7, 0.9}) {
         points.push_back({fmt::format("floor, x = {:.1f} m", x), {x, 0.4, lift_m}, {0, 0, 1}});
@@ -30,7 +30,7 @@ Case cornell(const std::string& id, const std::string& title, double white, doub
     points.push_back({"back wall", {0.25, 1.0 - lift_m, 0.4}, {0, -1, 0}});
     Case own = room_case(id, title, panels, points, effort(96, rays));
     for (std::size_t i = 0; i < 5; ++i) {
-        own.checks[i].sweep = {"floor of " + id, "x [m]", points[i].position.x()};
+        own.checks[i].sweep = {fmt::format("floor of {}", id), "x [m]", points[i].position.x()};
     }
     return own;
 }

@@ -10,6 +10,8 @@ namespace lucerna::validation {
 struct NamedPanel {
     std::string name;
     truth::Panel panel;  ///< those at coordinate 0 face up the axis, all others down
+    /// False for narrow panels beside bright ones, whose mean the truth knows less well.
+    bool mean_is_checked = true;
 };
 
 /// A point just inside a panel, where a sensor sees what the panel sees.
@@ -22,9 +24,8 @@ optics::Rectangle rectangle(const truth::Panel& panel);
 double area_m2(const truth::Panel& panel);
 
 /// The room as a case: illuminance at the points, and mean illuminance of each panel that reflects
-/// anything, from the luminous flux on it. A panel of reflectance 0 is left out of the scene: an
-/// opening. The truth is extrapolated from 6 and 12 cells
-/// per panel and edge.
+/// anything and is to be checked, from the luminous flux on it. A panel of reflectance 0 is left
+/// out of the scene: an opening. The truth is extrapolated from 6 and 12 cells per panel and edge.
 Case room_case(const std::string& id, const std::string& title,
                const std::vector<NamedPanel>& panels, const std::vector<WallPoint>& points,
                const optics::Settings& settings);

@@ -17,9 +17,9 @@ constexpr double lift_m = 1e-4;
 std::vector<NamedPanel> room(double rho) {
     return {{"wall -x", {0, 0.0, {0.0, 4.0}, {0.0, 2.5}, rho, 0.0}},
             {"wall +x", {0, 3.0, {0.0, 4.0}, {0.0, 2.5}, rho, 0.0}},
-            {"below the window", {1, 0.0, {0.0, 0.9}, {0.0, 3.0}, rho, 0.0}},
+            {"below the window", {1, 0.0, {0.0, 0.9}, {0.0, 3.0}, rho, 0.0}, false},
             {"window", {1, 0.0, {0.9, 2.1}, {0.0, 3.0}, 0.0, sky}},
-            {"above the window", {1, 0.0, {2.1, 2.5}, {0.0, 3.0}, rho, 0.0}},
+            {"above the window", {1, 0.0, {2.1, 2.5}, {0.0, 3.0}, rho, 0.0}, false},
             {"back wall", {1, 4.0, {0.0, 2.5}, {0.0, 3.0}, rho, 0.0}},
             {"floor", {2, 0.0, {0.0, 3.0}, {0.0, 4.0}, rho, 0.0}},
             {"ceiling", {2, 2.5, {0.0, 3.0}, {0.0, 4.0}, rho, 0.0}}};

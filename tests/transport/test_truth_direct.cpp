@@ -218,7 +218,7 @@ TEST_CASE("Direct light: absorption on a straight way", "[analytic]") {
             -half_width_m, half_width_m, 1);
         return integral / (4.0 * half_width_m * half_width_m);
     };
-    const test::Effort effort = acts ? test::Effort{4, 20000} : test::Effort{4, 100};
+    const test::Effort effort = acts ? test::Effort{20, 5000} : test::Effort{20, 100};
     const test::Replicates runs(scene, Method::combined, effort, 16, [](const Result& result) {
         return std::vector{test::mean_of_image(result.images.front())};
     });

@@ -257,9 +257,9 @@ TEST_CASE("Glass in a furnace: luminance in air and in glass", "[analytic]") {
     const double squared = mean_squared_index(disperses);
     INFO("disperses " << disperses << " method " << static_cast<int>(method));
     // Behind a dispersive boundary one wavelength carries the estimate, which costs accuracy.
-    const double demand = 0.005;
+    const double demand = disperses ? 0.02 : 0.005;
     test::check_truth_over_runs(runs[0], truth, demand);
-    test::check_truth_over_runs(runs[1], truth, demand);
+    test::check_truth_over_runs(runs[1], truth, 0.005);
     test::check_truth_over_runs(runs[2], squared * truth, demand);
     test::check_refutes_over_runs(runs[0], truth / (n * n));
     test::check_refutes_over_runs(runs[1], 1.05 * truth);
@@ -291,6 +291,6 @@ TEST_CASE("Glass in a furnace: illuminance in glass", "[analytic]") {
     });
     const double truth = pi * mean_squared_index(disperses) * luminance / (1.0 - rho);
     INFO("disperses " << disperses << " method " << static_cast<int>(method));
-    test::check_truth_over_runs(runs[0], truth, 0.01);
+    test::check_truth_over_runs(runs[0], truth, disperses ? 0.02 : 0.01);
     test::check_refutes_over_runs(runs[0], 0.9 * truth);
 }

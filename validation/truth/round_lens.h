@@ -19,13 +19,15 @@ struct RoundLens {
 };
 
 /// Where a ray that comes in at the height radius * sin(incidence) lands after `order` internal
-/// reflections.
+/// reflections; order -1 is reflection from outside, which throws grazing light forward.
 struct LensRay {
     bool lands = false;      ///< false: it runs away from the screen
     double landing_m = 0.0;  ///< height on the screen, negative across the axis
     double slope_m = 0.0;    ///< d landing / d incidence [m/rad]
     double transmittance = 0.0;
 };
+
+inline constexpr int outer_reflection = -1;
 
 /// In the plane of axis and ray each refraction turns the ray by i - r and each reflection by
 /// pi - 2 r (Born and Wolf, 7th ed., 4.1; Descartes' theory of the rainbow), and each chord takes
@@ -55,6 +57,7 @@ inline LensRay lens_ray(const RoundLens& lens, double incidence_rad, int order) 
         to_screen_m * direction_slope / (cosine * cosine);
     const double chord_m = 2.0 * lens.radius_m * fresnel.cosine_refracted;
     const auto passed = [&](double reflectance) {
+        if (order == outer_reflection) return reflectance;
         return std::pow(1.0 - reflectance, 2) * std::pow(reflectance, order);
     };
     ray.transmittance = 0.5 * (passed(fresnel.reflectance_s()) + passed(fresnel.reflectance_p())) *
@@ -66,7 +69,7 @@ inline LensRay lens_ray(const RoundLens& lens, double incidence_rad, int order) 
 inline constexpr int lens_orders = 12;
 
 /// Irradiance on the screen, which faces the lens, over that of the beam, by light that passed the
-/// lens and landed at `height_m` > 0 from the axis:
+/// lens, or was reflected by it, and landed at `height_m` > 0 from the axis:
 ///   ball      sum of T h |dh / dx| / x        (a ring of the beam lands as a ring)
 ///   cylinder  sum of T |dh / dx|
 /// over all branches x(h) = +-height. Diverges at folds dx/dh = 0.
@@ -75,7 +78,7 @@ inline double lens_irradiance(const RoundLens& lens, double height_m) {
     constexpr int steps = 4000;
     constexpr double right_angle = 0.5 * std::numbers::pi;
     double sum = 0.0;
-    for (int order = 0; order <= lens_orders; ++order) {
+    for (int order = outer_reflection; order <= lens_orders; ++order) {
         for (const double side : {1.0, -1.0}) {
             const auto miss = [&](double incidence_rad, bool& lands) {
                 const LensRay ray = lens_ray(lens, incidence_rad, order);

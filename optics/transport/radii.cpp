@@ -1,6 +1,7 @@
 #include "optics/transport/radii.h"
 
 #include <algorithm>
+#include <array>
 #include <numbers>
 
 #include "optics/transport/forward_map.h"
@@ -27,52 +28,68 @@ double median_square_distance(const std::vector<Vec3>& points) {
     return probes[probes.size() / 2];
 }
 
-// What the bias of a kernel may be, as a share of the light and root mean square over its places;
-// about the square of it is left when it is taken off.
-constexpr double small_sensor_bias = 0.05;
-constexpr double small_surface_bias = 0.15;
+// Numbers of photons within limit_m, limit_m / sqrt 2, limit_m / 2, ... of a point.
+constexpr std::size_t radius_steps = 32;  // the last is 2e-5 of the first
+using CountsByRadius = std::array<double, radius_steps + 1>;
 
-// The widest radius, at most limit_m, at which the photon density around the points shows no more
-// than that bias; not so narrow that hardly a photon is left.
+CountsByRadius counts_around(const Vec3& point, const std::vector<Vec3>& photons, double limit_m) {
+    CountsByRadius counts{};
+    for (const Vec3& photon : photons) {
+        const double square = (photon - point).squaredNorm() / (limit_m * limit_m);
+        if (square >= 1.0 || square == 0.0) continue;  // a photon is no evidence about itself
+        const double step = std::min(-std::log2(square), double{radius_steps});
+        counts[static_cast<std::size_t>(step)] += 1.0;
+    }
+    for (std::size_t i = radius_steps; i > 0; --i) counts[i - 1] += counts[i];
+    return counts;
+}
+
+// What is asked of a radius: the bias as a share of the light, root mean square over the points,
+// and how many standard deviations of pilot noise a larger one may be explained by.
+struct BiasLimit {
+    double share;
+    double noise;
+};
+// A sensor's kernel is widened only where its bias is shown to be small; about the square of it is
+// left when it is taken off. A surface's is narrowed only where it is shown to be large.
+constexpr BiasLimit of_sensors{0.05, 0.0};
+constexpr BiasLimit of_surfaces{0.15, 2.0};
+
+// The widest radius, at most limit_m, whose bias keeps within the limit at the points, and that of
+// the next narrower one as well: a lucky look must not decide.
 double radius_of_small_bias(const std::vector<Vec3>& photons, const std::vector<Vec3>& points,
-                            double limit_m, double small_bias) {
+                            double limit_m, const BiasLimit& limit) {
     constexpr std::size_t most_points = 64;
     constexpr double least_photons = 4.0;  // per point
-    const std::size_t step = std::max<std::size_t>(1, points.size() / most_points);
-    std::vector<std::vector<double>> distances_m;  // per point, sorted
-    for (std::size_t i = 0; i < points.size(); i += step) {
-        auto& of_point = distances_m.emplace_back();
-        for (const Vec3& photon : photons) {
-            const double distance_m = (photon - points[i]).norm();
-            if (distance_m < limit_m && distance_m > 0.0) of_point.push_back(distance_m);
-        }
-        std::sort(of_point.begin(), of_point.end());
+    const std::size_t stride = std::max<std::size_t>(1, points.size() / most_points);
+    std::vector<CountsByRadius> of_points;
+    for (std::size_t i = 0; i < points.size(); i += stride) {
+        of_points.push_back(counts_around(points[i], photons, limit_m));
     }
-    const auto within = [](const std::vector<double>& sorted, double radius_m) {
-        return static_cast<double>(std::lower_bound(sorted.begin(), sorted.end(), radius_m) -
-                                   sorted.begin());
-    };
-    // A lucky look at one radius must not decide: the next narrower one has to pass as well.
+    const auto n = static_cast<double>(of_points.size());
     bool wider_passed = false;
-    for (double radius_m = limit_m;; radius_m /= std::numbers::sqrt2) {
+    double radius_m = limit_m;
+    for (std::size_t step = 0; step < radius_steps; ++step, radius_m /= std::numbers::sqrt2) {
         double photon_count = 0.0;
         double bias_square = 0.0;
         double square = 0.0;
-        for (const auto& of_point : distances_m) {
-            const double all = within(of_point, radius_m);
-            const double inner = within(of_point, inner_radius_factor * radius_m);
+        for (const CountsByRadius& counts : of_points) {
+            const double all = counts[step];
             // bias = 2 (n(r) - 2 n(r / sqrt 2)) / (pi r^2); the variance of that difference of
             // counts is the number of all.
-            const double bias = 2.0 * (all - 2.0 * inner);
+            const double bias = 2.0 * (all - 2.0 * counts[step + 1]);
             bias_square += bias * bias - 4.0 * all;
             square += all * all;
             photon_count += all;
         }
-        const bool passed = bias_square <= small_bias * small_bias * square;
+        // With k photons at each of n points, bias_square has the standard deviation k sqrt(32 n).
+        const double noise = photon_count * std::sqrt(32.0 / n);
+        const bool passed = bias_square <= limit.share * limit.share * square + limit.noise * noise;
         if (passed && wider_passed) return std::numbers::sqrt2 * radius_m;
         wider_passed = passed;
-        if (photon_count < least_photons * static_cast<double>(distances_m.size())) return radius_m;
+        if (photon_count < least_photons * n) break;
     }
+    return radius_m;
 }
 
 }  // namespace
@@ -113,11 +130,11 @@ Radii pilot_radii(const Stage& stage, const SensorPlanes& planes,
             for (const auto& point : planes.points_of(patch - stage.patch_count())) {
                 points.push_back(point.position);
             }
-            radius_m = std::max(radius_m, radius_of_small_bias(positions[patch], points, limit_m,
-                                                               small_sensor_bias));
+            radius_m = std::max(
+                radius_m, radius_of_small_bias(positions[patch], points, limit_m, of_sensors));
         } else if (seen && positions[patch].size() > 2 * neighbours) {
-            radius_m = radius_of_small_bias(positions[patch], positions[patch], radius_m,
-                                            small_surface_bias);
+            radius_m =
+                radius_of_small_bias(positions[patch], positions[patch], radius_m, of_surfaces);
         }
         radii_m.push_back(radius_m);
     }

@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::uint32_t rays_per_block = 256;
 constexpr std::uint32_t blocks_per_chunk = 64;  // deposits of a chunk are held at once
-constexpr std::uint32_t min_pilot_rays = 1 << 15;
+constexpr std::uint32_t min_pilot_rays = 1 << 14;
 constexpr std::uint32_t min_forward_rays = 20000;
 // Secondary forward rays per backward ray: their noise is averaged over all second scattering
 // events that a kernel serves, so that few are enough (the same delta with 1 and with 1/4 in

@@ -124,7 +124,8 @@ TEST_CASE("Daylight of 6503.6 K is D65", "[unit]") {
     for (const auto& [name, nominal_k] :
          {std::pair{"D50", 5000.0}, {"D55", 5500.0}, {"D65", 6500.0}, {"D75", 7500.0}}) {
         const Spectrum formula = lucerna::spectral::daylight(nominal_k * remark);
-        for (const auto& [nm, value] : reference_table("cie_illuminants_standard.csv").at(name)) {
+        const auto table = reference_table("cie_illuminants_standard.csv").at(name);
+        for (const auto& [nm, value] : table) {
             INFO(name << " at " << nm << " nm");
             // The tables are made with M1 and M2 of three decimals: 0.0005 * S1 < 0.025.
             CHECK_THAT(formula.at(nm), WithinAbs(value, 0.03));

@@ -55,6 +55,7 @@ struct ValidateOptions {
     std::size_t seeds = 1;
     std::uint64_t seed = 1;
     std::optional<int> threads;
+    std::optional<double> accuracy;  ///< to stop each run at, in place of a fixed effort
     std::optional<std::filesystem::path> output;  ///< folder of validation.json and .html
 };
 /// Runs validation cases and compares them with their truths.

@@ -53,8 +53,9 @@ struct CommandLine {
         run_command->add_option("-o,--output", run.output,
                                 "Folder of the results [SCENE-results beside the scene]");
         run_command
-            ->add_option_function("--accuracy", quantity_into(run.accuracy, io::dimension::percent),
-                                  "Noise to stop at, of images and sensors, such as 2%")
+            ->add_option_function(
+                "--accuracy", quantity_into(run.accuracy, io::dimension::percent),
+                "Stop at this noise of images and uncertainty of sensors, such as 2%")
             ->type_name("PERCENT");
         run_command
             ->add_option_function("--time", quantity_into(run.time_limit_s, io::dimension::time),
@@ -106,6 +107,11 @@ struct CommandLine {
         validate_command
             ->add_option("--threads", validate.threads, "Runs at once [all of the machine]")
             ->check(CLI::PositiveNumber);
+        validate_command
+            ->add_option_function("--accuracy",
+                                  quantity_into(validate.accuracy, io::dimension::percent),
+                                  "Stop each run at this uncertainty [a fixed effort per case]")
+            ->type_name("PERCENT");
         validate_command->add_option("-o,--output", validate.output,
                                      "Folder of validation.json and validation.html [none]");
 

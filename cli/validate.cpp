@@ -27,6 +27,7 @@ ExitCode validate(const ValidateOptions& options) {
     validation::RunPlan plan;
     plan.first_seed = options.seed;
     plan.seeds = options.seeds;
+    plan.accuracy = options.accuracy;
     plan.threads = options.threads.value_or(hardware_threads());
     const bool terminal = ::isatty(STDERR_FILENO) == 1;
     const std::size_t runs = cases.size() * plan.seeds;

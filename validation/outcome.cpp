@@ -19,10 +19,14 @@ double quantile(double coverage, double degrees_of_freedom) {
     return student_t(coverage, std::clamp(degrees_of_freedom, 1.0, 1e6));
 }
 
-Run run_case(const Case& own, std::uint64_t seed) {
+Run run_case(const Case& own, std::uint64_t seed, const std::optional<double>& accuracy) {
     optics::Settings settings = own.settings;
     settings.seed = seed;
     settings.threads = 1;
+    if (accuracy) {
+        settings.sensor_accuracy = settings.image_accuracy = accuracy;
+        settings.max_phases = std::nullopt;
+    }
     const auto start = std::chrono::steady_clock::now();
     const optics::Result result = optics::simulate(own.scene, settings);
     Run run{
@@ -30,7 +34,9 @@ Run run_case(const Case& own, std::uint64_t seed) {
         .wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
         .phases = result.phases,
         .checks = {}};
-    for (const Check& check : own.checks) run.checks.push_back(judge(check, check.read(result)));
+    for (const Check& check : own.checks) {
+        run.checks.push_back(judge(check, check.read(result), accuracy.value_or(0.0)));
+    }
     return run;
 }
 
@@ -48,7 +54,7 @@ std::string_view verdict_text(Verdict verdict) {
     return "";
 }
 
-CheckOutcome judge(const Check& check, const Reading& reading) {
+CheckOutcome judge(const Check& check, const Reading& reading, double accuracy) {
     const double error = reading.value - check.truth;
     const double expanded = reading.expanded_uncertainty;
     const double standard = expanded / quantile(0.95, reading.degrees_of_freedom);
@@ -62,7 +68,7 @@ CheckOutcome judge(const Check& check, const Reading& reading) {
     // Written so that what is not a number fails.
     if (!(std::abs(outcome.z) <= outcome.z_limit)) {
         outcome.verdict = Verdict::wrong;
-    } else if (!(expanded <= check.detects_relative * std::abs(check.truth))) {
+    } else if (!(expanded <= std::max(check.detects_relative, accuracy) * std::abs(check.truth))) {
         outcome.verdict = Verdict::too_weak;
     }
     return outcome;
@@ -85,7 +91,8 @@ std::vector<CaseOutcome> run_cases(const std::vector<Case>& cases, const RunPlan
     for_each_block(cases.size() * plan.seeds, plan.threads, [&](std::size_t block) {
         const std::size_t number = block / plan.seeds;
         const std::size_t seed = block % plan.seeds;
-        outcomes[number].runs[seed] = run_case(cases[number], plan.first_seed + seed);
+        outcomes[number].runs[seed] =
+            run_case(cases[number], plan.first_seed + seed, plan.accuracy);
         const std::scoped_lock lock(mutex);
         ++done;
         if (on_done) on_done(done);

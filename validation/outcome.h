@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,7 +29,8 @@ struct CheckOutcome {
     bool within_u = false;  ///< |value - truth| <= U
 };
 
-CheckOutcome judge(const Check& check, const Reading& reading);
+/// @param accuracy  share of the truth that U may reach whatever the check says.
+CheckOutcome judge(const Check& check, const Reading& reading, double accuracy = 0.0);
 
 /// One run of one case.
 struct Run {
@@ -48,6 +50,9 @@ struct RunPlan {
     std::uint64_t first_seed = 1;
     std::size_t seeds = 1;  ///< first_seed, first_seed + 1, ...
     int threads = 1;        ///< runs at once; each run has one thread of its own
+    /// Instead of a fixed number of phases: until U of all sensors and delta of all images is at
+    /// most this share of the value.
+    std::optional<double> accuracy = std::nullopt;
 };
 
 /// Runs each case with each seed. The outcome does not depend on the threads but for wall times.

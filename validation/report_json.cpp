@@ -85,10 +85,15 @@ std::string report_json(const Report& report) {
         if (row.relative_width) entry["relative_width"] = number(*row.relative_width);
         rows.push_back(std::move(entry));
     }
-    const ordered_json all{{"lucerna", LUCERNA_VERSION},  {"seed", report.plan.first_seed},
-                           {"seeds", report.plan.seeds},  {"threads", report.plan.threads},
-                           {"wall_s", report.wall_s},     {"passed", report.passed()},
-                           {"coverage", std::move(rows)}, {"cases", std::move(cases)}};
+    const ordered_json all{{"lucerna", LUCERNA_VERSION},
+                           {"seed", report.plan.first_seed},
+                           {"seeds", report.plan.seeds},
+                           {"accuracy", number(report.plan.accuracy.value_or(std::nan("")))},
+                           {"threads", report.plan.threads},
+                           {"wall_s", report.wall_s},
+                           {"passed", report.passed()},
+                           {"coverage", std::move(rows)},
+                           {"cases", std::move(cases)}};
     return all.dump(1) + "\n";
 }
 

@@ -7,7 +7,6 @@
 using namespace lucerna;
 using namespace lucerna::optics;
 using truth::polygon_illuminance;
-using truth::rad_per_deg;
 using truth::total_flux_lm;
 using validation::SceneBuilder;
 

@@ -15,8 +15,8 @@ using Field = Eigen::Matrix<Complex, 3, 1>;
 
 constexpr double incidence_rad = 60.0 * pi / 180.0;
 const Complex metal_index(1.1, 2.0);
-constexpr double flux_lm = 100.0;
-constexpr double luminance = 1000.0;
+constexpr double beam_flux_lm = 100.0;
+constexpr double emitter_luminance = 1000.0;
 
 // A mirror that light along `in` meets at the angle of incidence, in the plane of `in` and `side`.
 struct Station {
@@ -55,7 +55,7 @@ Field reflected(const Station& at, const Field& field) {
 double reflectance(double turn_rad) {
     const auto both = stations(turn_rad);
     double sum = 0.0;
-    for (const Vec3& axis : {Vec3::UnitY(), Vec3::UnitZ()}) {
+    for (const Vec3 axis : {Vec3::UnitY(), Vec3::UnitZ()}) {
         sum += reflected(both[1], reflected(both[0], axis.cast<Complex>())).squaredNorm();
     }
     return 0.5 * sum;
@@ -65,7 +65,7 @@ double reflectance(double turn_rad) {
 double mean_reflectance_squared() {
     const auto first = stations(0.0)[0];
     double sum = 0.0;
-    for (const Vec3& axis : {Vec3::UnitY(), Vec3::UnitZ()}) {
+    for (const Vec3 axis : {Vec3::UnitY(), Vec3::UnitZ()}) {
         sum += reflected(first, axis.cast<Complex>()).squaredNorm();
     }
     return 0.25 * sum * sum;
@@ -90,15 +90,15 @@ TEST_CASE("Two mirrors in turned planes of incidence act as polariser and analys
     INFO("turned by " << turn_deg << " deg, " << (forward ? "forward" : "backward"));
     if (forward) {
         scene.light("beam", BeamLight{Disk{{-0.9, 0, 0}, Vec3::UnitX(), 0.01}, Vec3::UnitX()},
-                    flux_lm);
+                    beam_flux_lm);
         scene.receiver(scene.object("receiver", Disk{place_3, -second.out, 0.05}, scene.black()));
     } else {
-        scene.area_light(emitter, luminance);
+        scene.area_light(emitter, emitter_luminance);
         scene.meter(place_3, place_2, 0.004);
     }
     const Result result = test::run(scene, Method::combined,
                                     forward ? test::Effort{130, 8000} : test::Effort{280, 100});
-    const double whole = forward ? flux_lm : luminance;
+    const double whole = forward ? beam_flux_lm : emitter_luminance;
     const Estimate& estimate = result.quantities[0].estimate;
     test::check_truth(estimate, whole * reflectance(turn_deg * pi / 180.0));
     test::check_refutes(estimate, whole * mean_reflectance_squared());

@@ -1,0 +1,156 @@
+// What is stated of a run: that it stopped where it was told to, what follows from several readings
+// together, and the colour of a reading.
+#include "spectral/colorimetry.h"
+#include "spectral/illuminants.h"
+#include "tests/support/truth_checks.h"
+#include "validation/truth/polygon_light.h"
+
+using namespace lucerna;
+using namespace lucerna::optics;
+using validation::SceneBuilder;
+
+namespace {
+
+// A square luminaire over a black floor, seen by a row of points.
+constexpr double lamp_luminance = 1000.0;
+const std::vector<Vec3> row{{0.0, 0, 0}, {0.5, 0, 0}, {1.0, 0, 0}, {1.5, 0, 0}, {2.0, 0, 0}};
+const Vec3 corner(-0.3, -0.3, 1.5), u(0, 0.6, 0), v(0.6, 0, 0);
+
+SceneBuilder luminaire_over_row() {
+    SceneBuilder scene;
+    scene.area_light(scene.object("lamp", Rectangle{corner, u, v}, scene.black()), lamp_luminance);
+    scene.points(row, Vec3::UnitZ());
+    return scene;
+}
+
+double illuminance(const Vec3& x) {
+    return truth::polygon_illuminance(truth::corners(corner, u, v), lamp_luminance, x,
+                                      Vec3::UnitZ());
+}
+
+// Agreement of an uncertain number with its truth at a level of 1e-6.
+bool agrees(const Uncertain& result, double truth) {
+    const double t = student_t(1.0 - 1e-6, result.degrees_of_freedom);
+    return std::abs(result.value - truth) <= t * result.standard_error;
+}
+
+const DerivedQuantity& derived(const Result& result, const std::string& name) {
+    return *std::ranges::find(result.derived, "points: " + name, &DerivedQuantity::name);
+}
+
+}  // namespace
+
+TEST_CASE("A run stops when each sensor has the uncertainty that was asked for", "[statistical]") {
+    const bool by_name = GENERATE(false, true);
+    Settings settings;
+    settings.max_phases = 20000;
+    settings.forward_rays = 100;
+    if (by_name) {
+        settings.sensor_targets = {{"points", 0.0, 0.5}};  // lx
+    } else {
+        settings.sensor_accuracy = 0.003;
+    }
+    const Result result = simulate(luminaire_over_row().parts, settings);
+    CHECK(result.stopped_by == "accuracy");
+    CHECK(result.accuracy_reached);
+    CHECK(result.phases >= 16);
+    double worst = 0.0;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+        const Uncertain reading = result.quantities[i].result();
+        const double asked = by_name ? 0.5 : 0.003 * reading.value;
+        worst = std::max(worst, reading.expanded_uncertainty() / asked);
+        CHECK(agrees(reading, illuminance(row[i])));
+    }
+    CHECK(worst <= 1.0);
+    if (result.phases > 40) CHECK(worst > 0.6);  // it did not go on for nothing
+    // Twin: a run that may not go on says that it did not get there.
+    settings.max_phases = 2;
+    settings.sensor_targets.clear();
+    settings.sensor_accuracy = 1e-6;
+    const Result short_run = simulate(luminaire_over_row().parts, settings);
+    CHECK_FALSE(short_run.accuracy_reached);
+    CHECK(short_run.stopped_by == "phases");
+}
+
+TEST_CASE("Uniformity and mean follow from all points together", "[analytic]") {
+    const Result result = test::run(luminaire_over_row(), Method::combined, {60, 100});
+    double mean = 0.0;
+    for (const Vec3& x : row) mean += illuminance(x) / static_cast<double>(row.size());
+    const double least = illuminance(row.back());
+    const double greatest = illuminance(row.front());
+    struct Row {
+        const char* name;
+        double truth, wrong;
+    };
+    for (const auto& [name, truth, wrong] :
+         {Row{"mean", mean, greatest}, Row{"minimum", least, mean}, Row{"maximum", greatest, mean},
+          Row{"uniformity U0", least / mean, least / greatest},
+          Row{"diversity Ud", least / greatest, least / mean}}) {
+        INFO(name);
+        const Uncertain value = derived(result, name).result;
+        CHECK(agrees(value, truth));
+        CHECK_FALSE(agrees(value, wrong));
+        CHECK(value.standard_error < 0.003 * truth);
+        CHECK(value.candidates == 1.0);  // the points are far apart
+    }
+}
+
+TEST_CASE("The colour of a reading is that of the light that arrives", "[analytic]") {
+    // Light A on red paint: X, Y, Z of the product by sums at 1 nm.
+    const spectral::Spectrum red({360.0, 560.0, 620.0, 830.0}, {0.05, 0.08, 0.75, 0.85},
+                                 spectral::Outside::hold);
+    const spectral::Spectrum a = *spectral::illuminant("A");
+    std::vector<double> wavelengths_nm, products;
+    for (int nm = 360; nm <= 830; ++nm) {
+        wavelengths_nm.push_back(nm);
+        products.push_back(a.at(nm) * red.at(nm));
+    }
+    const spectral::Xyz xyz = spectral::tristimulus(
+        spectral::Spectrum(wavelengths_nm, products, spectral::Outside::zero));
+    SceneBuilder scene;
+    scene.light("lamp", PointLight{{0, 0, 1}}, 1000.0);
+    scene.parts.lights.back().flux_w_per_nm =
+        scene.parts.add(spectral::scaled_to_luminous(a, 1000.0));
+    const BsdfId paint = scene.diffuse(0.0);
+    std::get<Diffuse>(scene.parts.bsdfs[paint]).reflectance = scene.parts.add(red);
+    scene.object("paper", Disk{Vec3::Zero(), Vec3::UnitZ(), 0.2}, paint);
+    scene.meter({0.5, 0.0, 0.5}, Vec3::Zero(), 0.02);
+    const Result result = test::run(scene, Method::combined, {400, 100});
+    REQUIRE(result.quantities[0].colour);
+    const Colour& colour = *result.quantities[0].colour;
+    const auto truth = *spectral::chromaticity(xyz);
+    CHECK(agrees(colour.x, truth.x));
+    CHECK(agrees(colour.y, truth.y));
+    CHECK(colour.x.standard_error < 1e-3);
+    CHECK(colour.y.standard_error < 1e-3);
+    // Twins: the lamp's own colour, and X and Z exchanged.
+    const auto lamp = *spectral::chromaticity(spectral::tristimulus(a));
+    CHECK_FALSE(agrees(colour.x, lamp.x));
+    CHECK_FALSE(agrees(colour.x, xyz.z / (xyz.x + xyz.y + xyz.z)));
+}
+
+TEST_CASE("Caustic light beside a wall does not read low", "[analytic]") {
+    // A point light before a mirror; the points stand close to a wall, with no light behind it.
+    constexpr double rho = 0.9;
+    constexpr double intensity = 100.0;
+    const Vec3 lamp(0.8, 0, 1), image(1.2, 0, 1);
+    SceneBuilder scene;
+    scene.object("mirror", Rectangle{{1, -3, 0}, {0, 0, 4}, {0, 6, 0}}, scene.mirror(rho));
+    scene.object("floor", Rectangle{{-1, -2, 0}, {2, 0, 0}, {0, 4, 0}}, scene.black());
+    scene.object("wall", Rectangle{{-1, 0.5, 0}, {2, 0, 0}, {0, 0, 2}}, scene.black());
+    scene.light("lamp", PointLight{lamp}, 4.0 * pi * intensity);
+    const std::vector<Vec3> points{{0.2, 0.4, 0.0}, {0.4, 0.35, 0.0}};
+    scene.points(points, Vec3::UnitZ());
+    const Result result = test::run(scene, Method::combined, {1000, 20000});
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const auto from = [&](const Vec3& source) {
+            return intensity * source.z() / std::pow((source - points[i]).norm(), 3);
+        };
+        const Estimate& estimate = result.quantities[i].estimate;
+        INFO("point " << i);
+        test::check_mean(estimate.value(), estimate.standard_error(),
+                         from(lamp) + rho * from(image), {0.1});
+        // Twin: a quarter of the kernel behind the wall.
+        test::check_refutes(estimate, from(lamp) + 0.75 * rho * from(image));
+    }
+}

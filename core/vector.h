@@ -14,6 +14,11 @@ using Vec3 = Eigen::Vector3d;
 using std::numbers::pi;
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
+inline constexpr double rad_per_deg = pi / 180.0;
+
+inline double square(double x) {
+    return x * x;
+}
 
 /// A half line: `direction` is a unit vector.
 struct Ray {

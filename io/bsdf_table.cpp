@@ -54,9 +54,9 @@ std::vector<std::string_view> cells_of(std::string_view line) {
     }
 }
 
-class Reader {
+class TableReader {
 public:
-    explicit Reader(const TextFile& file) : file_(file) {}
+    explicit TableReader(const TextFile& file) : file_(file) {}
 
     MeasuredBsdf read() {
         if (trimmed(file_.lines.front()) != first_line) {
@@ -320,7 +320,7 @@ private:
 }  // namespace
 
 optics::MeasuredBsdf read_bsdf_table(const TextFile& file) {
-    return Reader(file).read();
+    return TableReader(file).read();
 }
 
 }  // namespace lucerna::io

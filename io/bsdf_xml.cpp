@@ -36,19 +36,19 @@ struct PartName {
     bool transmission;
     Side light;
 };
-constexpr std::array<PartName, 4> part_names{{{"Transmission Front", true, Side::front},
-                                              {"Transmission Back", true, Side::back},
-                                              {"Reflection Front", false, Side::front},
-                                              {"Reflection Back", false, Side::back}}};
+constexpr std::array<PartName, 4> xml_part_names{{{"Transmission Front", true, Side::front},
+                                                  {"Transmission Back", true, Side::back},
+                                                  {"Reflection Front", false, Side::front},
+                                                  {"Reflection Back", false, Side::back}}};
 
 auto& part_of(auto& parts, const PartName& name) {
     return (name.transmission ? parts.transmission
                               : parts.reflection)[static_cast<std::size_t>(name.light)];
 }
 
-class Reader {
+class XmlReader {
 public:
-    explicit Reader(const TextFile& file) : file_(file) {
+    explicit XmlReader(const TextFile& file) : file_(file) {
         for (const std::string& line : file.lines) {
             line_starts_.push_back(text_.size());
             text_ += line;
@@ -210,10 +210,10 @@ private:
 
     void read_block(const pugi::xml_node& block, bool incident_in_columns) {
         const pugi::xml_node direction = block.child("WavelengthDataDirection");
-        const auto name = std::ranges::find_if(part_names, [&](const PartName& part) {
+        const auto name = std::ranges::find_if(xml_part_names, [&](const PartName& part) {
             return same_word(part.name, text_of(direction));
         });
-        if (name == part_names.end()) {
+        if (name == xml_part_names.end()) {
             complain(direction ? direction : block,
                      fmt::format("WavelengthDataDirection is \"{}\"; expected Transmission Front, "
                                  "Transmission Back, Reflection Front or Reflection Back",
@@ -301,7 +301,7 @@ private:
                              from));
             break;
         }
-        for (const PartName& name : part_names) {
+        for (const PartName& name : xml_part_names) {
             if (!part_of(parts_, name)) {
                 warn(fmt::format("{} is not in the file; it is black", name.name));
             }
@@ -312,7 +312,7 @@ private:
         for (const Side light : {Side::front, Side::back}) {
             double most = 0.0;
             const char* block = nullptr;
-            for (const PartName& name : part_names) {
+            for (const PartName& name : xml_part_names) {
                 const auto& part = part_of(bsdf.parts(), name);
                 if (name.light != light || !part) continue;
                 if (first_block_.contains(name.name)) block = name.name;
@@ -355,7 +355,7 @@ private:
 }  // namespace
 
 optics::MeasuredBsdf read_bsdf_xml(const TextFile& file) {
-    return Reader(file).read();
+    return XmlReader(file).read();
 }
 
 }  // namespace lucerna::io

@@ -20,9 +20,9 @@ double coverage_factor(const LuminanceImage& image) {
 }
 
 // One of the two images on the scale of the reference.
-class Side {
+class Picture {
 public:
-    Side(const LuminanceImage& image, double scale)
+    Picture(const LuminanceImage& image, double scale)
         : image_(image), scale_(scale), factor_(coverage_factor(image) / scale) {}
 
     double luminance(std::size_t pixel) const { return image_.luminance[pixel] / scale_; }
@@ -62,7 +62,7 @@ struct Means {
     double reference = 0.0, image = 0.0;
     double reference_bound = 0.0, image_bound = 0.0;  // for any correlation of the pixels
 
-    void add(const Side& reference_side, const Side& image_side, std::size_t pixel) {
+    void add(const Picture& reference_side, const Picture& image_side, std::size_t pixel) {
         ++count;
         reference += reference_side.luminance(pixel);
         image += image_side.luminance(pixel);
@@ -227,7 +227,7 @@ private:
     }
 
     int width_, height_;
-    Side reference_, image_;
+    Picture reference_, image_;
     const LuminanceImage* mask_;
 };
 

@@ -73,7 +73,7 @@ std::string_view trimmed(std::string_view text) {
 }
 
 /// At most as much of what a user wrote as fits into a message.
-std::string shown(std::string_view text) {
+std::string shortened(std::string_view text) {
     constexpr std::size_t longest = 60;
     return text.size() <= longest ? std::string(text)
                                   : std::string(text.substr(0, longest)) + "...";
@@ -95,7 +95,7 @@ std::string accepted_units(const Dimension& dimension) {
 Quantity parse_quantity(std::string_view text, const Dimension& dimension) {
     const auto complain = [&](const std::string& what) -> std::invalid_argument {
         return std::invalid_argument(fmt::format("'{}' {}; expected {} such as \"{}\"",
-                                                 shown(trimmed(text)), what, dimension.name,
+                                                 shortened(trimmed(text)), what, dimension.name,
                                                  dimension.example));
     };
     std::string_view rest = trimmed(text);
@@ -121,9 +121,9 @@ Quantity parse_quantity(std::string_view text, const Dimension& dimension) {
     }
     if (rest.empty()) throw complain("has no unit");
     if (dimension.units.size() == 1 && dimension.units.front().symbol.empty())
-        throw complain(fmt::format("has the unit '{}'", shown(rest)));
+        throw complain(fmt::format("has the unit '{}'", shortened(rest)));
     throw complain(
-        fmt::format("has the unit '{}', not {}", shown(rest), accepted_units(dimension)));
+        fmt::format("has the unit '{}', not {}", shortened(rest), accepted_units(dimension)));
 }
 
 double parse_value(std::string_view text, const Dimension& dimension) {

@@ -40,6 +40,11 @@ struct Case {
     std::vector<Check> checks;
 };
 
+/// Flux of the lamps of cases that follow flux through glass.
+inline constexpr double lamp_flux_lm = 1000.0;
+/// Illuminance points stand this far before their wall.
+inline constexpr double lift_m = 1e-4;
+
 /// The engine's settings of a case: a fixed number of phases and of forward rays per phase and map.
 inline optics::Settings effort(std::uint32_t phases, std::uint32_t forward_rays,
                                int samples_per_pixel = 1,

@@ -7,8 +7,6 @@
 namespace lucerna::optics {
 namespace {
 
-constexpr double rad_per_deg = pi / 180.0;
-
 double degrees(double angle_rad) {
     return angle_rad / rad_per_deg;
 }

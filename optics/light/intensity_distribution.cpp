@@ -6,8 +6,6 @@
 namespace lucerna::optics {
 namespace {
 
-constexpr double rad_per_deg = pi / 180.0;
-
 // A linear function of gamma across one cell: `start` at its lower edge, `end` at its upper one.
 struct GammaSegment {
     double gamma_rad;  // lower edge

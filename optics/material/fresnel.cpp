@@ -7,10 +7,6 @@ namespace lucerna::optics {
 
 namespace {
 
-double square(double x) {
-    return x * x;
-}
-
 // Real amplitudes r_s, r_p of a boundary between transparent media; under total internal reflection
 // both are 1 in modulus, and g = sqrt(sin_i^2 - eta^2) gives their phases.
 struct DielectricAmplitudes {

@@ -5,14 +5,6 @@
 
 namespace lucerna::optics {
 
-namespace {
-
-double square(double x) {
-    return x * x;
-}
-
-}  // namespace
-
 double Ggx::facet_density(const Vec3& m) const {
     // Walter 2007, eq. 33, as the area element of the ellipsoid x^2 + y^2 + alpha^2 z^2.
     const double a2 = square(alpha_);

@@ -34,10 +34,6 @@ double azimuth_difference(const Vec3& in, const Vec3& out) {
     return angle < 0.0 ? angle + 2.0 * pi : angle;
 }
 
-double square(double x) {
-    return x * x;
-}
-
 void require_increasing(const std::vector<double>& axis) {
     if (axis.empty()) throw std::invalid_argument("an axis is empty");
     if (std::ranges::adjacent_find(axis, std::greater_equal<>()) != axis.end()) {

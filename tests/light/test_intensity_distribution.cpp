@@ -9,8 +9,6 @@ using optics::IntensityDistribution;
 
 namespace {
 
-constexpr double rad_per_deg = pi / 180.0;
-
 // Uneven grid, no symmetry, with dark cells.
 IntensityDistribution uneven() {
     return IntensityDistribution(

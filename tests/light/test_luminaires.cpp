@@ -37,7 +37,7 @@ std::shared_ptr<const IntensityDistribution> cosine() {
 }
 
 // Placed and turned in the scene, to find a rotation that is applied the wrong way round.
-Placement turned() {
+Placement turned_luminaire() {
     Placement placement = Placement::Identity();
     placement.translate(Vec3(1, 2, 3));
     placement.rotate(Eigen::AngleAxisd(0.7, Vec3(1, 2, -1).normalized()));
@@ -47,12 +47,13 @@ Placement turned() {
 Luminaire luminaire(const Opening& opening,
                     std::shared_ptr<const IntensityDistribution> intensity) {
     Luminaire light;
-    light.position = turned().translation();
-    light.to_photometric = turned().linear().transpose();
+    light.position = turned_luminaire().translation();
+    light.to_photometric = turned_luminaire().linear().transpose();
     light.intensity = std::move(intensity);
     if (auto mesh = opening_mesh(opening)) {
         light.object = object;
-        light.opening = MeshInstance{prepare_mesh(mesh->vertices, mesh->triangles), turned()};
+        light.opening =
+            MeshInstance{prepare_mesh(mesh->vertices, mesh->triangles), turned_luminaire()};
     }
     return light;
 }
@@ -73,7 +74,7 @@ TEST_CASE("Radiance of a luminaire is intensity by projected area", "[light][ana
     for (std::uint32_t i = 0; i < 100; ++i) {
         const auto u = uniforms(i);
         const Vec3 local = Vec3(u[0] - 0.5, u[1] - 0.5, u[2] - 0.5).normalized();
-        const Vec3 w = turned().linear() * local;
+        const Vec3 w = turned_luminaire().linear() * local;
         const SurfacePoint seen = light.opening.faces().sample_toward(w, u[3], 0.4);
         const double truth = light.intensity->intensity_cd(local) /
                              light.intensity->luminous_flux_lm() / box_area_m2(local);
@@ -87,7 +88,7 @@ TEST_CASE("Radiance of a luminaire is intensity by projected area", "[light][ana
         const Vec3 local(0.6, 0.0, z);
         const double truth = sheet.intensity->intensity_cd(local) /
                              sheet.intensity->luminous_flux_lm() / (0.36 * 0.8);
-        CHECK_THAT(radiance_factor(sheet, point, turned().linear() * local),
+        CHECK_THAT(radiance_factor(sheet, point, turned_luminaire().linear() * local),
                    WithinRel(truth, 1e-9));
     }
 }
@@ -184,7 +185,7 @@ TEST_CASE("An opening emits toward each direction from all that is seen of it al
         const EmittedRay ray = emit(light, u[0], u[1], u[2], u[3]);
         const Vec3 w = light.to_photometric * ray.ray.direction;
         const Vec3 normal = light.to_photometric * ray.surface.normal;
-        const Vec3 place = turned().inverse() * ray.surface.position;
+        const Vec3 place = turned_luminaire().inverse() * ray.surface.position;
         std::size_t face = 0;
         for (std::size_t f = 0; f < 6; ++f) face = normals[f].dot(normal) > 0.99 ? f : face;
         REQUIRE_THAT(
@@ -213,7 +214,7 @@ TEST_CASE("Far away a luminaire illuminates as its intensity by the square of th
         for (const Vec3& direction : {Vec3(0.3, 0.2, -1), Vec3(1, 0.5, -0.3), Vec3(-1, 1, 2)}) {
             const Vec3 local = direction.normalized();
             const double distance = 1000.0;
-            const Vec3 x = light.position + distance * (turned().linear() * local);
+            const Vec3 x = light.position + distance * (turned_luminaire().linear() * local);
             const Mean mean = mean_of(20000, [&](const auto& u) {
                 const auto sample = illuminate(light, x, u[0], u[1]);
                 return sample ? sample->factor : 0.0;
@@ -237,7 +238,7 @@ TEST_CASE("A luminaire with a cosine distribution illuminates as a Lambertian re
             return sample->factor * std::abs(sample->direction.z());
         });
         const auto measured = mean_of(100000, [&](const auto& u) {
-            const auto sample = illuminate(light, turned() * x, u[0], u[1]);
+            const auto sample = illuminate(light, turned_luminaire() * x, u[0], u[1]);
             return sample->factor * std::abs((light.to_photometric * sample->direction).z());
         });
         // The same integrand but for the interpolation of the cosine (4e-7) and independent points.
@@ -272,7 +273,7 @@ TEST_CASE("Illumination by a luminaire integrates its radiance near by", "[light
                 }
             }
         }
-        const Vec3 x = turned() * local_x;
+        const Vec3 x = turned_luminaire() * local_x;
         const Mean mean = mean_of(400000, [&](const auto& u) {
             const auto sample = illuminate(light, x, u[0], u[1]);
             return sample ? sample->factor : 0.0;

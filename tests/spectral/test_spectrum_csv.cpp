@@ -14,13 +14,13 @@ using spectral::Spectrum;
 
 namespace {
 
-Spectrum from_text(std::string_view text, std::string_view column = "") {
+Spectrum spectrum_from_text(std::string_view text, std::string_view column = "") {
     return read_spectrum_csv(TextFile(text).path(), column, Outside::hold);
 }
 
 std::vector<std::string> complaints(std::string_view text, std::string_view column = "") {
     try {
-        from_text(text, column);
+        spectrum_from_text(text, column);
     } catch (const InputError& error) {
         std::vector<std::string> found;
         for (const Diagnostic& diagnostic : error.diagnostics()) {
@@ -43,11 +43,11 @@ TEST_CASE("A column of a table becomes a spectrum", "[unit]") {
         "# in between\n"
         "500, 0.7, 0.2\n"
         "600, +7e-1, .3";
-    const Spectrum floor = from_text(text, "floor");
+    const Spectrum floor = spectrum_from_text(text, "floor");
     CHECK(floor.wavelengths_nm() == std::vector<double>{400.0, 500.0, 600.0});
     CHECK(floor.values() == std::vector<double>{0.1, 0.2, 0.3});
     CHECK(floor.outside() == Outside::hold);
-    CHECK(from_text(text, "wall").at(550.0) == 0.7);
+    CHECK(spectrum_from_text(text, "wall").at(550.0) == 0.7);
 }
 
 TEST_CASE("Separators, line ends and units are recognised", "[unit]") {
@@ -58,16 +58,16 @@ TEST_CASE("Separators, line ends and units are recognised", "[unit]") {
         "\xEF\xBB\xBFwavelength_nm,r\n400,0.5\n500,0.7\n",
         "\"wavelength_nm\",\"r\"\n\"400\",\"0.5\"\n500,0.7\n");
     INFO(text);
-    const Spectrum spectrum = from_text(text, "r");
+    const Spectrum spectrum = spectrum_from_text(text, "r");
     CHECK_THAT(spectrum.wavelengths_nm()[0], WithinRel(400.0, 1e-14));
     CHECK_THAT(spectrum.wavelengths_nm()[1], WithinRel(500.0, 1e-14));
     CHECK(spectrum.values() == std::vector<double>{0.5, 0.7});
-    CHECK(from_text(text).values() == spectrum.values());  // the only column needs no name
+    CHECK(spectrum_from_text(text).values() == spectrum.values());  // the only column needs no name
 }
 
 TEST_CASE("A column may be shorter than the table", "[unit]") {
     const char* text = "wavelength_nm,a,b\n300,,1\n400,2,1\n500,3,1\n600,,1\n700,,1\n";
-    const Spectrum a = from_text(text, "a");
+    const Spectrum a = spectrum_from_text(text, "a");
     CHECK(a.wavelengths_nm() == std::vector<double>{400.0, 500.0});
     CHECK(a.at(600.0) == 3.0);
     CHECK(
@@ -139,7 +139,7 @@ TEST_CASE("Text that is no table ends in an error, not in a crash", "[fuzz]") {
             text[(state >> 8) % text.size()] = static_cast<char>(state >> 24);
         }
         try {
-            const Spectrum spectrum = from_text(text, "r");
+            const Spectrum spectrum = spectrum_from_text(text, "r");
             CHECK(spectrum.values().size() >= 2);
         } catch (const InputError& error) {
             CHECK_FALSE(error.diagnostics().empty());

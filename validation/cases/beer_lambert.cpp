@@ -12,7 +12,6 @@ using namespace optics;
 
 constexpr double thickness_m = 0.2;
 constexpr double luminance = 1000.0;
-constexpr double flux_lm = 1000.0;
 
 // A plate over an emitter, seen by meters under two angles; beside it, a beam through the same
 // medium.
@@ -77,12 +76,12 @@ Case beam(const std::string& id, const std::string& title, const spectral::Spect
     const Vec3 direction(std::sin(0.7), 0.0, -std::cos(0.7));
     scene.light("beam",
                 BeamLight{Disk{-0.5 * direction + Vec3(0, 0, 0.2), direction, 0.01}, direction},
-                flux_lm);
+                lamp_flux_lm);
     scene.receiver(
         scene.object("sheet", Rectangle{{-2, -2, 0}, {4, 0, 0}, {0, 4, 0}}, scene.black()));
     const double path_m = thickness_m / std::cos(0.7);
     const double truth =
-        flux_lm *
+        lamp_flux_lm *
         truth::luminous_mean([](double) { return 1.0; },
                              [&](double nm) { return std::exp(-absorption.at(nm) * path_m); });
     return {.id = id,

@@ -13,8 +13,6 @@ namespace {
 
 using namespace optics;
 
-constexpr double lift_m = 1e-4;
-
 std::vector<Vec3> polygon_of(const Rectangle& r) {
     return truth::corners(r.corner, r.edge_u, r.edge_v);
 }

@@ -5,8 +5,6 @@
 namespace lucerna::validation {
 namespace {
 
-constexpr double lift_m = 1e-4;
-
 Case box(const std::string& id, const std::string& title, const Vec3& size,
          const std::array<double, 6>& rho, const optics::Settings& settings) {
     const double x = size.x(), y = size.y(), z = size.z();

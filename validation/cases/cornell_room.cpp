@@ -7,8 +7,6 @@
 namespace lucerna::validation {
 namespace {
 
-constexpr double lift_m = 1e-4;
-
 Case cornell(const std::string& id, const std::string& title, double white, double left,
              double right, std::uint32_t rays) {
     // y is depth, z is up; the open front at y = 0 absorbs all that meets it.

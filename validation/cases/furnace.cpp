@@ -11,7 +11,7 @@ namespace {
 using namespace optics;
 
 constexpr double emitted = 100.0;  // cd/m2
-const std::string source =
+const std::string furnace_source =
     "L = Le / (1 - rho), E = pi L: energy balance of a uniform field (Kirchhoff's furnace)";
 
 Placement turned() {
@@ -46,7 +46,7 @@ Case shell(const std::string& id, const std::string& title, const Shape& shape,
     SceneBuilder scene;
     scene.area_light(scene.object("shell", shape, scene.diffuse(rho)), emitted, true);
     for (const Look& look : looks) scene.meter(look.from, look.at, 0.5);
-    return {id, title, source, scene.parts, effort(64, 4000), checks(rho, looks, 0)};
+    return {id, title, furnace_source, scene.parts, effort(64, 4000), checks(rho, looks, 0)};
 }
 
 Case room(const std::string& id, double rho, std::uint32_t phases, std::uint32_t rays) {
@@ -60,7 +60,7 @@ Case room(const std::string& id, double rho, std::uint32_t phases, std::uint32_t
     scene.points({{0.3, 0.5, 0.3}}, Vec3(1.0, 2.0, 3.0).normalized());
     return {id,
             fmt::format("box room, all walls emit and reflect {:g}", rho),
-            source,
+            furnace_source,
             scene.parts,
             effort(phases, rays),
             checks(rho, looks, 1)};

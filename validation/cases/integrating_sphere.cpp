@@ -12,7 +12,6 @@ namespace {
 using namespace optics;
 
 constexpr double radius_m = 0.5;
-constexpr double flux_lm = 1000.0;
 const double wall_area_m2 = 4.0 * pi * radius_m * radius_m;
 
 // E = Phi cos / (4 pi d^2) + Phi rho / (A (1 - rho)), and L = rho E / pi.
@@ -20,14 +19,14 @@ Case off_centre(const std::string& id, double rho, std::uint32_t phases, std::ui
     SceneBuilder scene;
     const ObjectId wall = scene.object("wall", Sphere{Vec3::Zero(), radius_m}, scene.diffuse(rho));
     const Vec3 lamp(0.0, 0.0, 0.2);
-    scene.light("lamp", PointLight{lamp}, flux_lm);
+    scene.light("lamp", PointLight{lamp}, lamp_flux_lm);
     scene.receiver(wall);
     constexpr double half_angle_rad = 0.4;
     scene.meter(Vec3::Zero(), {0.0, 0.0, -1.0}, half_angle_rad);  // at the far pole
     const Vec3 point(0.0, 0.0, -0.3);
     scene.points({point}, Vec3::UnitZ());
 
-    const double reflected = flux_lm * rho / (wall_area_m2 * (1.0 - rho));
+    const double reflected = lamp_flux_lm * rho / (wall_area_m2 * (1.0 - rho));
     // The meter sees a cap. Direct light on it by Gauss's law: the flux within the cone of the lamp
     // through the rim of the cap, spread over the cap. Seen from the centre, equal areas of the cap
     // take equal solid angles.
@@ -35,13 +34,13 @@ Case off_centre(const std::string& id, double rho, std::uint32_t phases, std::ui
     const double rim_x = radius_m * std::sin(half_angle_rad);
     const double share = 0.5 * (1.0 - std::abs(rim_z) / std::hypot(rim_x, rim_z));
     const double cap_area = 2.0 * pi * radius_m * radius_m * (1.0 - std::cos(half_angle_rad));
-    const double luminance = rho / pi * (flux_lm * share / cap_area + reflected);
+    const double luminance = rho / pi * (lamp_flux_lm * share / cap_area + reflected);
     // At the point: light of the lamp, and of the wall above its horizon.
-    const double direct = flux_lm / (4.0 * pi * (lamp - point).squaredNorm());
+    const double direct = lamp_flux_lm / (4.0 * pi * (lamp - point).squaredNorm());
     const auto wall_luminance = [&](const Vec3& x) {
         const Vec3 way = x - lamp;
         const double cosine = way.dot(x) / (way.norm() * radius_m);
-        return rho / pi * (flux_lm * cosine / (4.0 * pi * way.squaredNorm()) + reflected);
+        return rho / pi * (lamp_flux_lm * cosine / (4.0 * pi * way.squaredNorm()) + reflected);
     };
     // E = pi * integral over cos^2 from 0 to 1 of the luminance in that direction.
     const double field = pi * truth::integral(
@@ -62,7 +61,8 @@ Case off_centre(const std::string& id, double rho, std::uint32_t phases, std::ui
         effort(phases, rays),
         {{"wall at the far pole", "luminance", "cd/m2", luminance, 0.0, sensor(0), 0.01},
          {"point within", "illuminance", "lx", direct + field, 1e-6 * field, sensor(1), 0.01},
-         {"all of the wall", "luminous flux", "lm", flux_lm / (1.0 - rho), 0.0, sensor(3), 0.01}}};
+         {"all of the wall", "luminous flux", "lm", lamp_flux_lm / (1.0 - rho), 0.0, sensor(3),
+          0.01}}};
 }
 
 // A sphere of radius a in the centre takes the share f = (a / R)^2 of what the wall sends out and
@@ -73,13 +73,13 @@ Case lamp_in_the_centre(const std::string& id, double rho, double lamp_rho) {
     const ObjectId wall = scene.object("wall", Sphere{Vec3::Zero(), radius_m}, scene.diffuse(rho));
     const ObjectId lamp =
         scene.object("lamp", Sphere{Vec3::Zero(), lamp_radius_m}, scene.diffuse(lamp_rho));
-    scene.light("lamp", AreaLight{lamp, scene.parts.objects[lamp].shape}, flux_lm);
+    scene.light("lamp", AreaLight{lamp, scene.parts.objects[lamp].shape}, lamp_flux_lm);
     scene.receiver(wall);
     scene.receiver(lamp);
     scene.meter({0.3, 0.0, 0.0}, {0.5, 0.2, 0.0}, 1.0);
     const double share = std::pow(lamp_radius_m / radius_m, 2);
     const double illuminance =
-        flux_lm / (wall_area_m2 * (1.0 - rho * (1.0 - share) - rho * share * lamp_rho));
+        lamp_flux_lm / (wall_area_m2 * (1.0 - rho * (1.0 - share) - rho * share * lamp_rho));
     return {
         id,
         fmt::format("lamp of reflectance {:g} in the centre of a sphere of {:g}", lamp_rho, rho),

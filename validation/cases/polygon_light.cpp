@@ -11,7 +11,7 @@ namespace {
 using namespace optics;
 
 constexpr double luminance = 2000.0;  // cd/m2
-const std::string source =
+const std::string polygon_source =
     "Lambert, Photometria, 1760, sections 138 to 143; as Arvo, thesis 1995, eq. 2.41";
 
 Check illuminance(const std::string& name, const Rectangle& lamp, const Vec3& x, const Vec3& normal,
@@ -41,7 +41,7 @@ Case over_a_floor(const std::string& id, const std::string& title, const Rectang
     // The cone is so narrow that the mean over it differs by less than 1e-4.
     checks.push_back({"floor at x = 0.5 m", "luminance", "cd/m2", value, 1e-4 * value,
                       sensor(checks.size()), 0.01});
-    return {id, title, source, scene.parts, effort(128, 100), checks};
+    return {id, title, polygon_source, scene.parts, effort(128, 100), checks};
 }
 
 }  // namespace
@@ -59,7 +59,7 @@ std::vector<Case> polygon_light_cases() {
             over_a_floor("polygon_light/tilted", "tilted rectangle, 0.67 x 1 m", tilted),
             {"polygon_light/horizon",
              "rectangle partly behind the horizon of slanted sensors",
-             source,
+             polygon_source,
              scene.parts,
              effort(128, 100),
              {illuminance("from aside", level, positions[0], slanted, 0),

@@ -15,7 +15,6 @@ using namespace optics;
 
 constexpr double apex_rad = pi / 3.0;
 constexpr double height_m = 0.06;
-constexpr double flux_lm = 1000.0;
 
 // Cauchy's formula for a glass like a dense flint.
 double index_at(double nm) {
@@ -79,9 +78,9 @@ Case at_least_deviation(const std::string& id, const std::string& title,
                                         0.5 * beam_length_m * Vec3::UnitY(),
                                     beam_width_m * across_in, beam_length_m * Vec3::UnitY()},
                           in},
-                flux_lm);
+                lamp_flux_lm);
     scene.parts.lights.back().flux_w_per_nm =
-        scene.parts.add(spectral::scaled_to_luminous(light, flux_lm));
+        scene.parts.add(spectral::scaled_to_luminous(light, lamp_flux_lm));
 
     const Vec3 middle = geometry.entry_m * down_exit + geometry.screen_m * out;
     // In the plane of section, toward larger deviation.
@@ -96,10 +95,10 @@ Case at_least_deviation(const std::string& id, const std::string& title,
 
     const auto light_at = [&](double nm) { return light.at(nm); };
     const auto landing = [&](double nm) { return truth::prism_landing(geometry, index.at(nm)); };
-    const double far = flux_lm * truth::luminous_mean(light_at, [&](double nm) {
+    const double far = lamp_flux_lm * truth::luminous_mean(light_at, [&](double nm) {
                            return landing(nm).flux_beyond();
                        });
-    const double all = flux_lm * truth::luminous_mean(light_at, [&](double nm) {
+    const double all = lamp_flux_lm * truth::luminous_mean(light_at, [&](double nm) {
                            return landing(nm).transmittance;
                        });
     // The sheets' order of normals decides which side is the front; both sides are read.

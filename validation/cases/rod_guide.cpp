@@ -11,7 +11,6 @@ namespace {
 using namespace optics;
 using truth::RodGuide;
 
-constexpr double flux_lm = 1000.0;
 // Between the glass and the virtual sheets around it; grazing light that passes through the gap is
 // less than 2 * gap / radius of the flux that leaves.
 constexpr double sheet_gap_m = 1e-7;
@@ -43,7 +42,7 @@ Case rod_case(const std::string& id, const RodGuide& rod, std::uint32_t phases) 
                 scene.medium(rod.index, rod.absorption_per_m));
     const ObjectId lamp = scene.object(
         "lamp", Disk{{0, 0, -rod.gap_m}, Vec3::UnitZ(), rod.source_radius_m}, scene.black());
-    scene.light("lamp", AreaLight{lamp, scene.parts.objects[lamp].shape}, flux_lm);
+    scene.light("lamp", AreaLight{lamp, scene.parts.objects[lamp].shape}, lamp_flux_lm);
     const auto sheet = [&](const std::string& name, const Shape& shape) {
         const ObjectId object = scene.object(name, shape, pass_through);
         scene.receiver(object);
@@ -62,7 +61,7 @@ Case rod_case(const std::string& id, const RodGuide& rod, std::uint32_t phases) 
 
     const truth::RodFlux shares = truth::rod_flux(rod);
     const double truth_error =
-        flux_lm * (2e-5 + 2.0 * sheet_gap_m / rod.radius_m);  // quadrature, sheets
+        lamp_flux_lm * (2e-5 + 2.0 * sheet_gap_m / rod.radius_m);  // quadrature, sheets
     Case result{
         .id = id,
         .title =
@@ -77,8 +76,8 @@ Case rod_case(const std::string& id, const RodGuide& rod, std::uint32_t phases) 
         .settings = effort(phases, 8000),
         .checks = {}};
     const auto check = [&](const std::string& name, double share, Read read) {
-        result.checks.push_back(
-            {name, "luminous flux", "lm", flux_lm * share, truth_error, std::move(read), 0.02});
+        result.checks.push_back({name, "luminous flux", "lm", lamp_flux_lm * share, truth_error,
+                                 std::move(read), 0.02});
     };
     check("out of the far end", shares.far, sensor(0));
     if (shares.sides > 1e-3) check("out of the sides", shares.sides, sensor(2));

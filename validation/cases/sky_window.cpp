@@ -10,10 +10,8 @@ namespace {
 
 using namespace optics;
 
-constexpr double sky = 5000.0;  // cd/m2
-constexpr double lift_m = 1e-4;
-
-// A room 3 x 4 x 2.5 m with a strip window in the wall y = 0, across its whole width.
+constexpr double sky =
+    5000.0;  // A room 3 x 4 x 2.5 m with a strip window in the wall y = 0, across its whole width.
 std::vector<NamedPanel> room(double rho) {
     return {{"wall -x", {0, 0.0, {0.0, 4.0}, {0.0, 2.5}, rho, 0.0}},
             {"wall +x", {0, 3.0, {0.0, 4.0}, {0.0, 2.5}, rho, 0.0}},

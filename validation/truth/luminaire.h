@@ -9,8 +9,6 @@
 
 namespace lucerna::truth {
 
-inline constexpr double rad_per_deg = pi / 180.0;
-
 /// The grid of the table and its values [cd], [C plane][gamma].
 inline const std::vector<double> c_deg{0, 60, 135, 180, 240, 300, 360};
 inline const std::vector<double> gamma_deg{0, 20, 45, 70, 90, 120};

@@ -1,7 +1,12 @@
 // lucerna: the command line. All errors end here, with an exit code and a text on stderr.
 #include <fmt/format.h>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include <CLI/CLI.hpp>
+#include <limits>
 #include <map>
 #include <new>
 #include <stdexcept>
@@ -69,7 +74,8 @@ struct CommandLine {
             ->check(CLI::NonNegativeNumber);
         run_command->add_option("--method", run.method, "Estimators to use")
             ->transform(CLI::CheckedTransformer(
-                std::map<std::string, optics::Method>{{"combined", optics::Method::combined},
+                std::map<std::string, optics::Method>{{"automatic", optics::Method::automatic},
+                                                      {"combined", optics::Method::combined},
                                                       {"forward", optics::Method::forward},
                                                       {"backward", optics::Method::backward},
                                                       {"path", optics::Method::path}}));
@@ -137,9 +143,21 @@ void complain(const std::string& message) {
     fmt::print(stderr, "{}\n", message);
 }
 
+// The maps of a phase are as large as those of the one before. glibc hands large blocks back to the
+// system and fetches them again page by page, which takes up to half of the time; here it keeps
+// them.
+void keep_freed_memory() {
+#ifdef __GLIBC__
+    mallopt(M_MMAP_MAX, 0);
+    mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());
+    mallopt(M_TOP_PAD, 64 << 20);
+#endif
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+    keep_freed_memory();
     CommandLine command_line;
     try {
         command_line.app.parse(argc, argv);

@@ -8,7 +8,16 @@
 namespace lucerna {
 
 /// What a stream of random numbers is for; streams of different purposes are independent.
-enum class RandomPurpose : std::uint32_t { backward, caustic, secondary, wavelengths, pilot, test };
+enum class RandomPurpose : std::uint32_t {
+    backward,
+    caustic,
+    secondary,
+    wavelengths,
+    pilot,
+    test,
+    strata,
+    indirect
+};
 
 /// Random numbers of one path, Philox4x32-10 (Salmon et al., SC'11) by Random123.
 /// Successive calls walk through the dimensions of the path.
@@ -18,9 +27,12 @@ public:
                  std::uint32_t path);
 
     /// Uniform in [0, 1), a multiple of 2^-32.
-    double uniform() {
+    double uniform() { return bits() * 0x1p-32; }
+
+    /// 32 random bits.
+    std::uint32_t bits() {
         if (next_ == 4) refill();
-        return buffer_[next_++] * 0x1p-32;
+        return buffer_[next_++];
     }
 
 private:

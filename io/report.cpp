@@ -40,6 +40,8 @@ private:
 
 std::string method_name(optics::Method method) {
     switch (method) {
+        case optics::Method::automatic:
+            return "automatic";
         case optics::Method::combined:
             return "combined";
         case optics::Method::forward:

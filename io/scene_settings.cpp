@@ -83,12 +83,14 @@ optics::Settings read_settings(const YamlCursor& section, const optics::ScenePar
     optics::Settings settings;
     if (!section) return settings;
     YamlMap map(section);
-    if (const auto method =
-            map.optional("method").choice({"combined", "forward", "backward", "path"})) {
-        const std::map<std::string, optics::Method> methods{{"combined", optics::Method::combined},
-                                                            {"forward", optics::Method::forward},
-                                                            {"backward", optics::Method::backward},
-                                                            {"path", optics::Method::path}};
+    if (const auto method = map.optional("method").choice(
+            {"automatic", "combined", "forward", "backward", "path"})) {
+        const std::map<std::string, optics::Method> methods{
+            {"automatic", optics::Method::automatic},
+            {"combined", optics::Method::combined},
+            {"forward", optics::Method::forward},
+            {"backward", optics::Method::backward},
+            {"path", optics::Method::path}};
         settings.method = methods.at(*method);
     }
     if (const YamlCursor accuracy = map.optional("accuracy")) {

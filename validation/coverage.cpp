@@ -7,6 +7,8 @@ namespace lucerna::validation {
 namespace {
 
 constexpr std::size_t seeds_for_width = 10;
+// A truth whose error is a larger share of U says nothing about U: published digits of colours.
+constexpr double largest_truth_error = 0.25;
 
 double probability(std::size_t hits, std::size_t trials, double p) {
     if (p <= 0.0) return hits == 0 ? 1.0 : 0.0;
@@ -54,6 +56,10 @@ struct Gathered {
         for (const Run& run : outcome.runs) {
             const CheckOutcome& own = run.checks[check];
             const Reading& reading = own.reading;
+            if (outcome.of->checks[check].truth_error >
+                largest_truth_error * reading.expanded_uncertainty) {
+                continue;
+            }
             ++coverage.stated.trials;
             ++coverage.noise_only.trials;
             if (own.within_u) ++coverage.stated.hits;
@@ -125,7 +131,9 @@ std::vector<Coverage> coverage(const std::vector<CaseOutcome>& outcomes) {
         }
     }
     std::vector<Coverage> result;
-    for (Gathered& row : rows) result.push_back(row.result());
+    for (Gathered& row : rows) {
+        if (row.coverage.stated.trials > 0) result.push_back(row.result());
+    }
     if (all.coverage.stated.trials > 0) result.push_back(all.result());
     return result;
 }

@@ -24,7 +24,8 @@ struct Share {
 /// probability `p`.
 std::array<std::size_t, 2> binomial_bounds(std::size_t trials, double p);
 
-/// Coverage of all checks of one quantity, or of all.
+/// Coverage of all checks of one quantity, or of all. Readings whose truth is not known to a
+/// quarter of their U are left out.
 struct Coverage {
     std::string quantity;
     Share stated;  ///< truth within value +/- U

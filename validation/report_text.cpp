@@ -42,9 +42,9 @@ std::string coverage_text(const Report& report) {
     if (rows.empty()) return "";
     const Share& all = rows.back().stated;
     const auto [low, high] = binomial_bounds(all.trials, 0.95);
-    std::string text =
-        fmt::format("\n{} of {} readings lie within their U (95 % expected: {} to {})\n", all.hits,
-                    all.trials, low, high);
+    std::string text = fmt::format(
+        "\n{} of {} readings with a truth known to U / 4 lie within U (95 % expected: {} to {})\n",
+        all.hits, all.trials, low, high);
     if (report.plan.seeds < 2) return text;
     text += fmt::format("\nCoverage over {} seeds, with the 95 % interval of each share\n",
                         report.plan.seeds);

@@ -1,5 +1,7 @@
 #include "optics/transport/backward_trace.h"
 
+#include <algorithm>
+
 namespace lucerna::optics {
 namespace {
 
@@ -16,22 +18,39 @@ constexpr double least_importance_to_branch = 0.02;
 class BackwardRay {
 public:
     BackwardRay(const Phase& phase, const Collection& collection, const SensorPlanes& planes,
-                const ForwardMap& forward_map, const Radii& radii, Readings& readings,
-                BackwardTally& tally, std::vector<BackwardPhoton>& stored)
+                const ForwardMaps& maps, Readings& readings, BackwardTally& tally,
+                std::vector<BackwardPhoton>& stored)
         : phase_(phase),
           collection_(collection),
           planes_(planes),
-          forward_map_(forward_map),
-          radii_(radii),
+          maps_(maps),
           readings_(readings),
           tally_(tally),
           stored_(stored) {}
 
-    void trace(const ObserverBins& bins, std::size_t bin, std::uint32_t sample) {
-        const auto path_number =
-            static_cast<std::uint32_t>(bins.first_path + bin * bins.samples_per_bin + sample);
-        RandomStream random(phase_.seed, phase_.number, RandomPurpose::backward, path_number);
+    /// All rays of a bin.
+    void trace(const ObserverBins& bins, std::size_t bin) {
         bin_ = static_cast<std::uint32_t>(bins.first_bin + bin);
+        const std::uint32_t samples = bins.samples_per_bin;
+        const Observer& observer = phase_.stage.parts().observers[bins.observer];
+        const std::uint32_t set =
+            RandomStream(phase_.seed, phase_.number, RandomPurpose::strata, bin_).bits();
+        const std::uint32_t gathers = gathers_of_bin(bins, observer);
+        for (std::uint32_t sample = 0; sample < samples; ++sample) {
+            const auto path_number =
+                static_cast<std::uint32_t>(bins.first_path + bin * samples + sample);
+            StratifiedStream random(
+                {phase_.seed, phase_.number, RandomPurpose::backward, path_number},
+                {set, sample, samples});
+            gather_weight_ =
+                sample < gathers ? static_cast<float>(samples) / static_cast<float>(gathers) : 0.0f;
+            trace(bins, bin, sample, random);
+        }
+    }
+
+private:
+    void trace(const ObserverBins& bins, std::size_t bin, std::uint32_t sample,
+               StratifiedStream& random) {
         scatterings_ = 0;
         specular_since_ = false;
         path_ = {.ray = {Vec3::Zero(), Vec3::UnitZ()},
@@ -54,13 +73,11 @@ public:
         }
     }
 
-private:
     // Starts the ray; false if nothing remains to be traced.
     bool leave_observer(const ObserverBins& bins, std::size_t bin, std::uint32_t sample,
-                        RandomStream& random) {
+                        StratifiedStream& random) {
         const Observer& observer = phase_.stage.parts().observers[bins.observer];
-        const double u1 = random.uniform();
-        const double u2 = random.uniform();
+        const auto [u1, u2] = random.pair();
         if (const auto* camera = std::get_if<Camera>(&observer)) {
             const auto width = static_cast<std::size_t>(camera->width);
             path_.ray = camera->ray(static_cast<double>(bin % width) + u1,
@@ -102,7 +119,7 @@ private:
     }
 
     bool leave_sensor(const IlluminancePoints& points, const SensorPlanes::Point& sensor, double u1,
-                      double u2, RandomStream& random) {
+                      double u2, StratifiedStream& random) {
         const Vec3& position = sensor.position;
         path_.media = phase_.stage.media_at(position);
         path_.weight *= static_cast<float>(pi);
@@ -118,7 +135,7 @@ private:
     }
 
     // Follows the path to the next surface and through its event; false when the path has ended.
-    bool next_event(RandomStream& random) {
+    bool next_event(StratifiedStream& random) {
         const Stage& stage = phase_.stage;
         const auto encounter = next_encounter(phase_, path_);
         ++tally_.segments;
@@ -148,8 +165,7 @@ private:
             return true;
         }
         const double u_lobe = random.uniform();
-        const double u1 = random.uniform();
-        const double u2 = random.uniform();
+        const auto [u1, u2] = random.pair();
         const auto sampled =
             sample(bsdf, optics, encounter->wo, u_lobe, u1, u2, Transport::radiance);
         if (!sampled || (collected && !sampled->specular)) return false;
@@ -218,7 +234,7 @@ private:
 
     // Direct and gathered light at the first scattering event (at every one in path tracing).
     void collect(const Encounter& encounter, const Bsdf& bsdf, const SurfaceOptics& optics,
-                 RandomStream& random) {
+                 StratifiedStream& random) {
         const GatherPoint at{encounter.point, encounter.frame, encounter.wo, bsdf, optics};
         const bool above = encounter.wo.z() > 0.0;
         readings_.add(phase_, bin_,
@@ -227,13 +243,22 @@ private:
                                                   above ? encounter.media_beyond : path_.media,
                                                   random, tally_.shadow_segments));
         if (scatterings_ > 0) return;
-        gather(at, collection_.first_gather, path_.weight);
+        if (gather_weight_ > 0.0f) {
+            gather(at, collection_.first_gather, gather_weight_ * path_.weight);
+        }
         if (collection_.first_deposit) store(encounter, collection_.first_deposit);
     }
 
     void gather(const GatherPoint& at, std::uint8_t histories, const Lanes& weight) {
-        if (!histories) return;
-        const Gathered gathered = forward_map_.gather(phase_, radii_, at);
+        if (histories & mask(History::caustic)) {
+            add(maps_.caustic.gather(phase_, maps_.caustic_radii, at), weight);
+        }
+        if (histories & mask(History::indirect)) {
+            add(maps_.indirect.gather(phase_, maps_.indirect_radii, at), weight);
+        }
+    }
+
+    void add(const Gathered& gathered, const Lanes& weight) {
         readings_.add(phase_, bin_, weight * gathered.radiance, weight * gathered.bias());
     }
 
@@ -252,8 +277,7 @@ private:
     const Phase& phase_;
     const Collection& collection_;
     const SensorPlanes& planes_;
-    const ForwardMap& forward_map_;
-    const Radii& radii_;
+    const ForwardMaps& maps_;
     Readings& readings_;
     BackwardTally& tally_;
     std::vector<BackwardPhoton>& stored_;
@@ -265,6 +289,7 @@ private:
         double importance;
     };
     std::vector<Branch> branches_;  // before the first scattering event, still to be followed
+    float gather_weight_ = 1.0f;    // of a ray among those of its bin; 0: it does not gather
     double importance_ = 1.0;       // share of the path's weight that its branches left to it
     int scatterings_ = 0;
     bool specular_since_ = false;  // the last scattering event
@@ -274,11 +299,19 @@ private:
 
 }  // namespace
 
+std::uint32_t gathers_of_bin(const ObserverBins& bins, const Observer& observer) {
+    constexpr std::size_t gathers_of_image = 1 << 16;
+    if (!std::holds_alternative<Camera>(observer)) return bins.samples_per_bin;
+    return static_cast<std::uint32_t>(
+        std::clamp<std::size_t>(gathers_of_image / bins.count, 1, bins.samples_per_bin));
+}
+
 Collection Collection::of(Method method, PlantedError planted) {
     constexpr std::uint8_t caustic = mask(History::caustic);
     constexpr std::uint8_t mapped = caustic | mask(History::indirect);
     Collection collection;
     switch (method) {
+        case Method::automatic:
         case Method::combined:
             collection.first_gather = collection.sensor_gather = caustic;
             collection.second_deposit = all_light;
@@ -301,25 +334,21 @@ Collection Collection::of(Method method, PlantedError planted) {
     return collection;
 }
 
-bool Collection::needs_forward_map(bool has_caustics, bool has_sensors) const {
-    const std::uint8_t wanted =
-        static_cast<std::uint8_t>(first_gather | (has_sensors ? sensor_gather : 0));
-    return (wanted & mask(History::indirect)) || (wanted && has_caustics);
+Collection Collection::merged_where_seen() {
+    return of(Method::forward, PlantedError::none);
 }
 
-std::vector<BackwardPhoton> trace_backward(const Phase& phase, const Collection& collection,
+std::vector<BackwardPhoton> trace_backward(const Phase& phase, const Collections& collections,
                                            const BinBlock& block, const SensorPlanes& planes,
-                                           const ForwardMap& forward_map,
-                                           const Radii& forward_radii, Readings& readings,
+                                           const ForwardMaps& maps, Readings& readings,
                                            BackwardTally& tally) {
     std::vector<BackwardPhoton> stored;
     const ObserverBins& bins = readings.observers()[block.observer_bins];
-    BackwardRay ray(phase, collection, planes, forward_map, forward_radii, readings, tally, stored);
-    for (std::size_t bin = block.first; bin < block.last; ++bin) {
-        for (std::uint32_t sample = 0; sample < bins.samples_per_bin; ++sample) {
-            ray.trace(bins, bin, sample);
-        }
-    }
+    const bool camera =
+        std::holds_alternative<Camera>(phase.stage.parts().observers[bins.observer]);
+    BackwardRay ray(phase, camera ? collections.cameras : collections.sensors, planes, maps,
+                    readings, tally, stored);
+    for (std::size_t bin = block.first; bin < block.last; ++bin) ray.trace(bins, bin);
     return stored;
 }
 

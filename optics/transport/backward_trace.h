@@ -7,6 +7,10 @@
 
 namespace lucerna::optics {
 
+/// Number of rays of a bin that gather photons, for all of its rays: in a large image kernels are
+/// wider than pixels, and what the other rays of a pixel would find is nearly the same.
+std::uint32_t gathers_of_bin(const ObserverBins& bins, const Observer& observer);
+
 /// Which estimator takes which light: every path of light must be counted exactly once.
 ///
 /// With v counting the scattering events from the observer: visible emission is counted by the ray
@@ -20,7 +24,19 @@ struct Collection {
     bool emission_behind_specular = false;  ///< L S+ D ... E found by the ray itself
 
     static Collection of(Method method, PlantedError planted);
-    bool needs_forward_map(bool has_caustics, bool has_sensors) const;
+    /// Of images under Method::automatic where kernels at seen surfaces have less noise than rays
+    /// to a second scattering event: indirect light is gathered where it is seen.
+    static Collection merged_where_seen();
+};
+
+/// The collections of the two kinds of observers.
+struct Collections {
+    Collection cameras, sensors;
+
+    bool deposit() const {
+        return cameras.first_deposit || cameras.second_deposit || sensors.first_deposit ||
+               sensors.second_deposit;
+    }
 };
 
 struct BackwardTally {
@@ -29,10 +45,9 @@ struct BackwardTally {
 
 /// Traces the backward rays of a block of bins: adds visible emission, direct and gathered light to
 /// the readings and returns the backward photons. Unbiased but for the kernels of the maps.
-std::vector<BackwardPhoton> trace_backward(const Phase& phase, const Collection& collection,
+std::vector<BackwardPhoton> trace_backward(const Phase& phase, const Collections& collections,
                                            const BinBlock& block, const SensorPlanes& planes,
-                                           const ForwardMap& forward_map,
-                                           const Radii& forward_radii, Readings& readings,
+                                           const ForwardMaps& maps, Readings& readings,
                                            BackwardTally& tally);
 
 }  // namespace lucerna::optics

@@ -50,15 +50,14 @@ TraceRates measure_trace_rates(const SceneParts& parts, const Settings& settings
         }
     });
     Readings readings(parts, settings);
-    const Collection collection = Collection::of(Method::combined, PlantedError::none);
-    const Radii no_radii({});
-    const ForwardMap no_map;
+    const Collection combined = Collection::of(Method::combined, PlantedError::none);
+    const ForwardMaps no_maps;
     rates.backward = rate(phase, [&] {
         BackwardTally tally;
         std::uint64_t paths = 0;
         for (const BinBlock& block : readings.blocks()) {
             if (paths >= max_paths) break;
-            trace_backward(phase, collection, block, planes, no_map, no_radii, readings, tally);
+            trace_backward(phase, {combined, combined}, block, planes, no_maps, readings, tally);
             paths += (block.last - block.first) *
                      readings.observers()[block.observer_bins].samples_per_bin;
         }

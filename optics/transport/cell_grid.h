@@ -67,6 +67,12 @@ public:
         }
     }
 
+    /// Calls use(item) for all items, in the order of their places in memory.
+    template <typename Use>
+    void for_each(Use&& use) {
+        for (Entry& entry : sorted_) use(entry.item);
+    }
+
     std::size_t bytes() const {
         return starts_.size() * sizeof(std::uint32_t) + sorted_.size() * sizeof(Entry);
     }

@@ -78,7 +78,7 @@ double emission_weight(const Phase& phase, std::uint32_t light, const Vec3& x,
 
 Lanes direct_light(const Phase& phase, const GatherPoint& at, const SurfacePoint* surface,
                    const MediumStack& media_above, const MediumStack& media_below,
-                   RandomStream& random, std::uint64_t& shadow_segments) {
+                   StratifiedStream& random, std::uint64_t& shadow_segments) {
     const Stage& stage = phase.stage;
     const std::size_t lights = stage.parts().lights.size();
     const std::size_t draws = std::min(lights, max_light_draws);
@@ -94,8 +94,7 @@ Lanes direct_light(const Phase& phase, const GatherPoint& at, const SurfacePoint
     for (std::size_t draw = 0; draw < draws; ++draw) {
         const std::size_t chosen =
             lights <= max_light_draws ? draw : stage.light_choice().sample(random.uniform());
-        const double u1 = random.uniform();
-        const double u2 = random.uniform();
+        const auto [u1, u2] = random.pair();
         const Light& light = stage.parts().lights[chosen];
         const auto sampled = illuminate(light.source, at.point.position, u1, u2);
         if (!sampled || !(sampled->factor > 0.0)) continue;

@@ -16,7 +16,7 @@ inline double balance_weight(double own, double other) {
 /// @param media_above, media_below  solids that hold the space on both sides of the surface.
 Lanes direct_light(const Phase& phase, const GatherPoint& at, const SurfacePoint* surface,
                    const MediumStack& media_above, const MediumStack& media_below,
-                   RandomStream& random, std::uint64_t& shadow_segments);
+                   StratifiedStream& random, std::uint64_t& shadow_segments);
 
 /// Weight of emission found by a direction that the BSDF chose with density `pdf_solid_angle` from
 /// x.

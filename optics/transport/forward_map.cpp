@@ -30,14 +30,20 @@ Vec3 kernel_direction(const Frame& frame, const Photon& photon) {
 
 ForwardMap::ForwardMap(const Stage& stage, const Radii& radii, std::vector<Photon> photons,
                        std::uint64_t rays)
-    : photons_(std::move(photons)), per_ray_(1.0 / static_cast<double>(rays)) {
-    std::vector<CellGrid<std::uint32_t>::Entry> entries;
-    entries.reserve(photons_.size());
-    for (std::uint32_t i = 0; i < photons_.size(); ++i) {
-        const std::uint32_t patch = kernel_patch(stage, photons_[i].point);
-        entries.push_back({CellKey::at(patch, photons_[i].point.position, 2.0 * radii[patch]), i});
+    : per_ray_(1.0 / static_cast<double>(rays)) {
+    std::vector<CellGrid<Place>::Entry> entries;
+    entries.reserve(photons.size());
+    for (std::uint32_t i = 0; i < photons.size(); ++i) {
+        const Vec3& position = photons[i].point.position;
+        const std::uint32_t patch = kernel_patch(stage, photons[i].point);
+        entries.push_back({CellKey::at(patch, position, 2.0 * radii[patch]), {position, i}});
     }
     grid_.build(std::move(entries));
+    photons_.reserve(photons.size());
+    grid_.for_each([&](Place& place) {
+        photons_.push_back(photons[place.photon]);
+        place.photon = static_cast<std::uint32_t>(photons_.size() - 1);
+    });
 }
 
 Gathered ForwardMap::gather(const Phase& phase, const Radii& radii, const GatherPoint& at) const {
@@ -51,19 +57,30 @@ Gathered ForwardMap::gather(const Phase& phase, const Radii& radii, const Gather
     const Vec3 reach = Vec3::Constant(radius_m);
     const CellKey low = CellKey::at(patch, at.point.position - reach, cell_m);
     const CellKey high = CellKey::at(patch, at.point.position + reach, cell_m);
+    const double square_m2 = square(radius_m);
+    // A diffuse surface scatters all light from a side alike.
+    const bool diffuse = std::holds_alternative<Diffuse>(at.bsdf);
+    const auto scattered = [&](const Vec3& wi) {
+        return evaluate(at.bsdf, at.optics, at.wo, wi, Transport::radiance);
+    };
+    const Lanes from_above = diffuse ? scattered(Vec3::UnitZ()) : Lanes::Zero();
+    const Lanes from_below = diffuse ? scattered(-Vec3::UnitZ()) : Lanes::Zero();
     bool found = false;
     for (std::int32_t x = low.x; x <= high.x; ++x) {
         for (std::int32_t y = low.y; y <= high.y; ++y) {
             for (std::int32_t z = low.z; z <= high.z; ++z) {
-                grid_.visit({patch, x, y, z}, [&](std::uint32_t i) {
-                    const Photon& photon = photons_[i];
+                grid_.visit({patch, x, y, z}, [&](const Place& place) {
+                    if ((at.point.position - place.position).squaredNorm() >= square_m2) return;
+                    const Photon& photon = photons_[place.photon];
                     if (!in_kernel(stage, at.point, photon.point, radius_m)) return;
                     found = true;
-                    const Vec3 wi = kernel_direction(at.frame, photon);
-                    Lanes f = evaluate(at.bsdf, at.optics, at.wo, wi, Transport::radiance);
-                    sum.radiance += f * photon.flux;
+                    const bool above = photon.direction.dot(photon.point.normal) < 0.0;
+                    const Lanes light =
+                        photon.flux * (diffuse ? (above ? from_above : from_below)
+                                               : scattered(kernel_direction(at.frame, photon)));
+                    sum.radiance += light;
                     if (in_kernel(stage, at.point, photon.point, inner_m)) {
-                        sum.radiance_inner += f * photon.flux;
+                        sum.radiance_inner += light;
                     }
                 });
             }

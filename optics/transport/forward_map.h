@@ -67,9 +67,20 @@ public:
     std::size_t bytes() const { return photons_.size() * sizeof(Photon) + grid_.bytes(); }
 
 private:
-    std::vector<Photon> photons_;
-    CellGrid<std::uint32_t> grid_;  // cell size: twice the patch's radius
+    std::vector<Photon> photons_;  // in the order of the grid
+    struct Place {
+        Vec3 position;  // beside the key, as most photons of a cell are out of reach
+        std::uint32_t photon;
+    };
+    CellGrid<Place> grid_;  // cell size: twice the patch's radius
     double per_ray_ = 0.0;
+};
+
+/// The maps that are gathered at the first scattering event. Each history has a map of its own:
+/// caustics are narrow and need narrow kernels, indirect light is smooth and bears wide ones.
+struct ForwardMaps {
+    ForwardMap caustic, indirect;
+    Radii caustic_radii, indirect_radii;
 };
 
 }  // namespace lucerna::optics

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "core/random.h"
+#include "core/stratified.h"
 #include "optics/transport/phase.h"
 
 namespace lucerna::optics {

@@ -92,22 +92,11 @@ double radius_of_small_bias(const std::vector<Vec3>& photons, const std::vector<
     return radius_m;
 }
 
-}  // namespace
-
-Radii Radii::at_phase(std::uint32_t number) const {
-    constexpr double alpha = 4.0 / 5.0;
-    const double factor = std::pow(static_cast<double>(number) + 1.0, (alpha - 1.0) / 2.0);
-    std::vector<double> shrunk;
-    shrunk.reserve(radii_m_.size());
-    for (const double radius : radii_m_) shrunk.push_back(radius * factor);
-    return Radii(std::move(shrunk));
-}
-
-Radii pilot_radii(const Stage& stage, const SensorPlanes& planes,
-                  const std::vector<Photon>& photons, double photons_per_kernel, double scale,
-                  bool seen) {
+// @param photons_per_kernel  of the pilot photons; what surfaces and sensors ask for comes on top.
+Radii radii_of(const Stage& stage, const SensorPlanes& planes, const PilotPhotons& pilot,
+               double photons_per_kernel, bool seen) {
     std::vector<std::vector<Vec3>> positions(stage.patch_count() + planes.count());
-    for (const Photon& photon : photons) {
+    for (const Photon& photon : pilot.photons) {
         positions[kernel_patch(stage, photon.point)].push_back(photon.point.position);
     }
     const double scene_limit_m = stage.caster().scene_radius_m() / 20.0;
@@ -119,12 +108,11 @@ Radii pilot_radii(const Stage& stage, const SensorPlanes& planes,
             sensor ? planes.margin_m()
                    : std::min(scene_limit_m, std::sqrt(stage.patch_area_m2(patch)) / 8.0);
         double radius_m = limit_m;
-        if (positions[patch].size() > 2 * neighbours) {
-            // n photons within d: density n / (pi d^2); wanted K = density * scale * pi r^2.
-            const double square = median_square_distance(positions[patch]);
-            radius_m = std::sqrt(photons_per_kernel * square / (neighbours * scale));
+        if (positions[patch].size() > 2 * neighbours && photons_per_kernel < infinity) {
+            // n photons within d: density n / (pi d^2); wanted K = density * pi r^2.
+            const double square_m2 = median_square_distance(positions[patch]);
+            radius_m = std::min(limit_m, std::sqrt(photons_per_kernel * square_m2 / neighbours));
         }
-        radius_m = std::min(limit_m, radius_m);
         if (sensor) {
             std::vector<Vec3> points;
             for (const auto& point : planes.points_of(patch - stage.patch_count())) {
@@ -139,6 +127,44 @@ Radii pilot_radii(const Stage& stage, const SensorPlanes& planes,
         radii_m.push_back(radius_m);
     }
     return Radii(std::move(radii_m));
+}
+
+}  // namespace
+
+Radii Radii::at_phase(std::uint32_t number) const {
+    constexpr double alpha = 4.0 / 5.0;
+    const double factor = std::pow(static_cast<double>(number) + 1.0, (alpha - 1.0) / 2.0);
+    std::vector<double> shrunk;
+    shrunk.reserve(radii_m_.size());
+    for (const double radius : radii_m_) shrunk.push_back(radius * factor);
+    return Radii(std::move(shrunk));
+}
+
+Radii narrow_radii(const Stage& stage, const SensorPlanes& planes, const PilotPhotons& pilot,
+                   double photons_per_kernel, std::uint32_t rays, bool seen) {
+    return radii_of(stage, planes, pilot, photons_per_kernel * pilot.rays / rays, seen);
+}
+
+Radii wide_radii(const Stage& stage, const SensorPlanes& planes, const PilotPhotons& pilot) {
+    return radii_of(stage, planes, pilot, infinity, true);
+}
+
+std::uint32_t rays_for(const Stage& stage, const PilotPhotons& pilot, const Radii& radii,
+                       double photons_per_kernel) {
+    std::vector<double> counts(stage.patch_count());
+    for (const Photon& photon : pilot.photons) {
+        if (photon.point.object != no_object) counts[stage.patch_index(photon.point)] += 1.0;
+    }
+    // What a photon finds around itself, in the mean over all photons.
+    double found = 0.0, all = 0.0;
+    for (std::uint32_t patch = 0; patch < counts.size(); ++patch) {
+        const double kernel_share = pi * square(radii[patch]) / stage.patch_area_m2(patch);
+        found += counts[patch] * counts[patch] * kernel_share;
+        all += counts[patch];
+    }
+    if (!(found > 0.0)) return 0;
+    const double rays = pilot.rays * photons_per_kernel * all / found;
+    return static_cast<std::uint32_t>(std::min(rays, 1e9));
 }
 
 }  // namespace lucerna::optics

@@ -3,17 +3,17 @@
 
 #include <vector>
 
+#include "optics/transport/forward_trace.h"
 #include "optics/transport/sensor_planes.h"
 #include "optics/transport/stage.h"
 
 namespace lucerna::optics {
 
-struct Photon;
-
 /// The radius of each patch's kernels in one phase [m]; the patches of sensor planes come last.
 class Radii {
 public:
-    Radii(std::vector<double> first_radii_m) : radii_m_(std::move(first_radii_m)) {}
+    Radii() = default;
+    explicit Radii(std::vector<double> first_radii_m) : radii_m_(std::move(first_radii_m)) {}
     double operator[](std::uint32_t patch) const { return radii_m_[patch]; }
 
     /// Radii of a phase: r_i^2 = r_1^2 i^(alpha - 1) (Knaus and Zwicker, TOG 30(3), 2011, sec. 5).
@@ -26,8 +26,13 @@ private:
     std::vector<double> radii_m_;
 };
 
-/// Radii at which a kernel holds about `photons_per_kernel` photons in a phase with
-/// `scale` times as many rays as the pilot trace that found `photons`.
+/// Photons of a trace with `rays` rays whose results are not used but for what follows.
+struct PilotPhotons {
+    std::vector<Photon> photons;
+    std::uint32_t rays;
+};
+
+/// Radii at which a kernel holds about `photons_per_kernel` photons in a phase with `rays` rays.
 ///
 /// The density is the median of what the photons of a patch see around themselves: it follows the
 /// places where the light is, so that a caustic on a wide floor gets the radius of the caustic.
@@ -37,8 +42,16 @@ private:
 /// widest that shows a bias of 5 % of the light at its points at most, root mean square, so that
 /// less than 1 % is left when that is taken off. Where kernels are `seen`, those of surfaces are
 /// narrowed until they show no more than 15 %.
-Radii pilot_radii(const Stage& stage, const SensorPlanes& planes,
-                  const std::vector<Photon>& photons, double photons_per_kernel, double scale,
-                  bool seen);
+Radii narrow_radii(const Stage& stage, const SensorPlanes& planes, const PilotPhotons& pilot,
+                   double photons_per_kernel, std::uint32_t rays, bool seen);
+
+/// The same for seen surfaces whatever number of photons their kernels hold: as wide as the limits
+/// and the bias allow.
+Radii wide_radii(const Stage& stage, const SensorPlanes& planes, const PilotPhotons& pilot);
+
+/// Number of forward rays of a phase for which kernels of surfaces hold about `photons_per_kernel`
+/// photons, in the mean over the photons of the pilot trace; 0 without photons.
+std::uint32_t rays_for(const Stage& stage, const PilotPhotons& pilot, const Radii& radii,
+                       double photons_per_kernel);
 
 }  // namespace lucerna::optics

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 
 #include "core/parallel.h"
 #include "optics/transport/accuracy.h"
@@ -30,6 +31,15 @@ constexpr std::size_t sensor_samples_per_phase = 20000;
 // Points whose value is as near to the least one as this many standard errors of the difference
 // might be the least in truth.
 constexpr double rival_errors = 2.0;
+
+// Backward rays of an image in a phase: enough for their stratification to pay, within limits per
+// pixel, and as few as the time and memory of a phase of a large image ask for.
+constexpr std::size_t image_samples_per_phase = 1 << 20;
+
+std::size_t samples_of_pixel(std::size_t pixels, const Settings& settings) {
+    if (settings.samples_per_pixel) return static_cast<std::size_t>(*settings.samples_per_pixel);
+    return std::bit_floor(std::clamp<std::size_t>(image_samples_per_phase / pixels, 1, 16));
+}
 
 std::size_t tiles_along(std::size_t pixels) {
     constexpr std::size_t size = Image::tile_size;
@@ -66,7 +76,7 @@ Readings::Readings(const SceneParts& parts, const Settings& settings)
         const std::size_t count = bins_of(parts.observers[i]);
         if (count == 0) continue;
         const std::size_t samples =
-            camera ? static_cast<std::size_t>(settings.samples_per_pixel)
+            camera ? samples_of_pixel(count, settings)
                    : std::clamp<std::size_t>(sensor_samples_per_phase / count, 16, 4096);
         const std::size_t block = std::max<std::size_t>(1, samples_per_block / samples);
         for (std::size_t first = 0; first < count; first += block) {
@@ -206,8 +216,10 @@ Readings::ImageError Readings::image_error(const ObserverBins& bins) const {
     }
     bias = std::max(0.0, bias - correction_noise);  // its own noise would else pass for bias
     // The error of v - c b is Var v - 2 c Cov(v, b) + c^2 Var b + (1 - c)^2 bias^2; least at
-    const double covariance = 0.5 * (noise + correction_noise - corrected);
-    if (bias + correction_noise > 0.0) {
+    // With a single phase nothing is known of either, and all of the bias is taken off.
+    const bool known = std::isfinite(noise);
+    const double covariance = known ? 0.5 * (noise + correction_noise - corrected) : 0.0;
+    if (known && bias + correction_noise > 0.0) {
         error.correction = std::clamp((bias + covariance) / (bias + correction_noise), 0.0, 1.0);
     }
     const double c = error.correction;
@@ -217,6 +229,19 @@ Readings::ImageError Readings::image_error(const ObserverBins& bins) const {
         error.square += std::pow(luminance_[bin].value(c), 2);
     }
     return error;
+}
+
+double Readings::image_variance() const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < observers_.size(); ++i) {
+        if (!is_camera_[i]) continue;
+        const ObserverBins& bins = observers_[i];
+        for (std::size_t bin = bins.first_bin; bin < bins.first_bin + bins.count; ++bin) {
+            const Estimate& pixel = luminance_[bin];
+            sum += std::pow(pixel.mean_standard_error(), 2) * static_cast<double>(pixel.count());
+        }
+    }
+    return sum;
 }
 
 double Readings::delta() const {

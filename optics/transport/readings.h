@@ -46,6 +46,8 @@ public:
     std::vector<Image> images(const SceneParts& parts) const;
     std::vector<Quantity> quantities(const SceneParts& parts) const;
     std::vector<DerivedQuantity> derived(const SceneParts& parts) const;
+    /// Sum over the pixels of all cameras of the variance over phases.
+    double image_variance() const;
     /// delta of METHOD eq. (6) over the pixels of all cameras; 0 without a camera.
     double delta() const;
     /// Largest ratio of the expanded uncertainty of a sensor to what is asked for; 0 without

@@ -9,7 +9,14 @@
 
 namespace lucerna::optics {
 
-enum class Method { combined, forward, backward, path };
+enum class Method {
+    automatic,  ///< combined, but images gather indirect light where it is seen if that is less
+                ///< noisy in pilot phases
+    combined,
+    forward,
+    backward,
+    path
+};
 
 /// Errors of the partition of light that a test can plant, to show that it would notice them.
 enum class PlantedError {
@@ -31,7 +38,7 @@ struct SensorTarget {
 };
 
 struct Settings {
-    Method method = Method::combined;
+    Method method = Method::automatic;
     std::uint64_t seed = 1;
     int threads = 0;                        ///< 0: all of the machine
     std::optional<double> image_accuracy;   ///< delta of METHOD eq. 6 to stop at, such as 0.02
@@ -40,8 +47,9 @@ struct Settings {
     std::optional<double> time_limit_s;        ///< wall time
     std::optional<std::uint32_t> max_phases;
     std::optional<std::uint32_t> forward_rays;  ///< per phase and map; default: see simulate.cpp
-    int samples_per_pixel = 1;                  ///< backward rays per pixel and phase
-    int spectral_bins = 0;                      ///< bins of the spectral image; 0: none
+    /// Backward rays per pixel and phase; default: see readings.cpp.
+    std::optional<int> samples_per_pixel;
+    int spectral_bins = 0;  ///< bins of the spectral image; 0: none
     /// Whether paths carry polarisation; without it where the scene has smooth dielectrics or
     /// metals.
     std::optional<bool> polarisation;

@@ -1,7 +1,8 @@
 // The page to read first. One phase (METHOD section 2):
-//   1 forward trace, caustic          trace_photons()
-//   2 caustic forward map             ForwardMap
-//   3 backward trace                  trace_backward(): emission, direct light, caustic gather
+//   1 forward trace, caustic          trace_photons(); another for indirect light if that is
+//                                     gathered where it is seen
+//   2 forward maps                    ForwardMaps
+//   3 backward trace                  trace_backward(): emission, direct light, gathered light
 //   4 secondary backward map          BackwardMap
 //   5 forward trace, secondary        trace_and_deposit()
 //   6 form the images and their error Readings, StopRule
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <chrono>
 #include <limits>
+#include <utility>
 
 #include "core/parallel.h"
 #include "optics/transport/accuracy.h"
@@ -21,16 +23,24 @@ namespace {
 
 constexpr std::uint32_t rays_per_block = 256;
 constexpr std::uint32_t blocks_per_chunk = 64;  // deposits of a chunk are held at once
-constexpr std::uint32_t min_pilot_rays = 1 << 14;
+constexpr std::uint32_t min_pilot_rays = 1 << 14, max_pilot_rays = 1 << 15;
+// What the choice of the collection for images is made from.
+constexpr std::uint32_t pilot_phases = 4;
+constexpr std::size_t pilot_blocks = 64;
 constexpr std::uint32_t min_forward_rays = 20000;
 // Secondary forward rays per backward ray: their noise is averaged over all second scattering
 // events that a kernel serves, so that few are enough (the same delta with 1 and with 1/4 in
 // diffuse rooms).
-constexpr std::uint64_t backward_per_secondary_ray = 4;
+constexpr std::uint64_t backward_per_secondary_ray = 16;
+constexpr std::uint64_t backward_per_caustic_ray = 4;
 // Expected photons in a kernel of the first phase: few where the kernel is hidden behind a
 // scattering event, more where it is seen.
 constexpr double photons_per_hidden_kernel = 16.0;
 constexpr double photons_per_seen_kernel = 24.0;
+// Where all indirect light is gathered at seen surfaces, it is mostly smooth: kernels are as wide
+// as their bias allows. For each ray that a gather stands for, this many photons in the kernel, on
+// average: then the maps have about the noise of the direct light, and gathering about its cost.
+constexpr double photons_per_ray_of_wide_kernel = 32.0;
 
 class Stopwatch {
 public:
@@ -50,9 +60,10 @@ public:
           threads_(settings.threads > 0 ? settings.threads : hardware_threads()),
           planes_(stage_.parts(), stage_.caster(), stage_.caster().scene_radius_m() / 6.0),
           readings_(parts, settings),
-          collection_(Collection::of(settings.method, settings.planted_error)),
-          caustic_rays_(
-              settings.forward_rays.value_or(at_least_min(readings_.samples_per_phase()))),
+          collections_{Collection::of(settings.method, settings.planted_error),
+                       Collection::of(settings.method, settings.planted_error)},
+          caustic_rays_(settings.forward_rays.value_or(
+              at_least_min(readings_.samples_per_phase() / backward_per_caustic_ray))),
           secondary_rays_(settings.forward_rays.value_or(
               at_least_min(readings_.samples_per_phase() / backward_per_secondary_ray))),
           total_(stage_.parts()),
@@ -60,65 +71,14 @@ public:
         for (const FluxReceiver& receiver : parts.receivers) {
             receiver_targets_.push_back(settings.target_of(receiver.name));
         }
-        pilot();
+        choose_radii();
+        if (settings.method == Method::automatic) choose_collection_of_images();
     }
 
     void run_phase(std::uint32_t number) {
         const Phase phase(stage_, settings_.seed, number);
-        const Radii seen_radii = seen_radii_->at_phase(number);
-        const Radii hidden_radii = hidden_radii_->at_phase(number);
         ForwardTally tally(stage_.parts());
-
-        ForwardMap forward_map;
-        const bool stores_all = collection_.first_gather & mask(History::indirect);
-        if (needs_forward_map()) {
-            Stopwatch watch;
-            ForwardTally caustic_tally(stage_.parts());
-            const Reach reach = stores_all ? Reach::whole_path : Reach::first_scattering;
-            std::vector<Photon> photons =
-                trace_photons(phase, RandomPurpose::caustic, reach, caustic_rays_, caustic_tally);
-            counts_.caustic_s += watch.seconds();
-            counts_.caustic_rays += caustic_rays_;
-            counts_.forward_photons += photons.size();
-            counts_.forward_segments += caustic_tally.segments;
-            if (stores_all) tally = caustic_tally;
-            Stopwatch map_watch;
-            forward_map = ForwardMap(stage_, seen_radii, std::move(photons), caustic_rays_);
-            counts_.maps_s += map_watch.seconds();
-            forward_map_bytes = std::max<std::uint64_t>(forward_map_bytes, forward_map.bytes());
-        }
-
-        Stopwatch backward_watch;
-        const auto& blocks = readings_.blocks();
-        std::vector<std::vector<BackwardPhoton>> stored(blocks.size());
-        std::vector<BackwardTally> backward_tallies(blocks.size());
-        for_each_block(blocks.size(), threads_, [&](std::size_t i) {
-            stored[i] = trace_backward(phase, collection_, blocks[i], planes_, forward_map,
-                                       seen_radii, readings_, backward_tallies[i]);
-        });
-        counts_.backward_s += backward_watch.seconds();
-        counts_.backward_rays += readings_.samples_per_phase();
-        for (const BackwardTally& block : backward_tallies) {
-            counts_.backward_segments += block.segments;
-            counts_.shadow_segments += block.shadow_segments;
-        }
-
-        if (!stores_all) {
-            Stopwatch map_watch;
-            BackwardMap backward_map(phase, hidden_radii, std::move(stored));
-            counts_.maps_s += map_watch.seconds();
-            counts_.backward_photons += backward_map.size();
-            backward_map_bytes = std::max<std::uint64_t>(backward_map_bytes, backward_map.bytes());
-            Stopwatch watch;
-            trace_and_deposit(phase, backward_map, tally);
-            for_each_block(blocks.size(), threads_, [&](std::size_t i) {
-                backward_map.read(i, secondary_rays_,
-                                  [&](std::uint32_t bin, const Lanes& radiance, const Lanes& bias) {
-                                      readings_.add(phase, bin, radiance, bias);
-                                  });
-            });
-            counts_.secondary_s += watch.seconds();
-        }
+        trace_phase(phase, collections_, readings_.blocks(), tally);
         readings_.fold(phase, threads_);
         fold_tally(tally);
         ++phases_;
@@ -155,8 +115,8 @@ public:
         result.derived = readings_.derived(parts);
         result.flux_balance_lm = balance();
         result.rays = counts_;
-        result.forward_map_bytes = forward_map_bytes;
-        result.backward_map_bytes = backward_map_bytes;
+        result.forward_map_bytes = forward_map_bytes_;
+        result.backward_map_bytes = backward_map_bytes_;
         result.image_bytes = readings_.bytes();
         result.settings = settings_;
         result.settings.forward_rays = secondary_rays_;
@@ -179,49 +139,192 @@ private:
         return static_cast<std::uint8_t>(history);
     }
 
-    // Rays of the trace from which flux balance and receivers are taken.
+    bool is_camera(const ObserverBins& bins) const {
+        return std::holds_alternative<Camera>(stage_.parts().observers[bins.observer]);
+    }
+
+    // Whether light of a history is gathered from its forward map by anyone.
+    bool gathers(const Collections& collections, History history) const {
+        if (history == History::caustic && !stage_.has_caustics()) return false;
+        std::uint8_t wanted = collections.cameras.first_gather | collections.sensors.first_gather;
+        if (planes_.count() > 0) wanted |= collections.sensors.sensor_gather;
+        return wanted & mask(history);
+    }
+
+    // The flux balance and the receivers are taken from the secondary trace; without backward
+    // photons from that of the indirect map, if there is one.
+    bool traces_secondary(const Collections& collections) const {
+        return collections.deposit() || !gathers(collections, History::indirect);
+    }
     double balance_rays() const {
-        return collection_.first_gather & mask(History::indirect) ? caustic_rays_ : secondary_rays_;
+        return traces_secondary(collections_) ? secondary_rays_ : indirect_rays_;
     }
 
-    bool needs_forward_map() const {
-        return collection_.needs_forward_map(stage_.has_caustics(), planes_.count() > 0);
+    // One phase: what the observers collect is added to the readings.
+    void trace_phase(const Phase& phase, const Collections& collections,
+                     const std::vector<BinBlock>& blocks, ForwardTally& tally) {
+        const std::uint32_t radii_of = is_pilot(phase.number) ? 0 : phase.number;
+        ForwardMaps maps;
+        if (gathers(collections, History::caustic)) {
+            maps.caustic_radii = caustic_radii_.at_phase(radii_of);
+            ForwardTally unused(stage_.parts());
+            maps.caustic =
+                forward_map(phase, History::caustic, caustic_rays_, maps.caustic_radii, unused);
+        }
+        if (gathers(collections, History::indirect)) {
+            maps.indirect_radii = indirect_radii_.at_phase(radii_of);
+            ForwardTally indirect_tally(stage_.parts());
+            maps.indirect = forward_map(phase, History::indirect, indirect_rays_,
+                                        maps.indirect_radii, indirect_tally);
+            if (!traces_secondary(collections)) tally = indirect_tally;
+        }
+        forward_map_bytes_ = std::max<std::uint64_t>(forward_map_bytes_,
+                                                     maps.caustic.bytes() + maps.indirect.bytes());
+
+        Stopwatch backward_watch;
+        std::vector<std::vector<BackwardPhoton>> stored(blocks.size());
+        std::vector<BackwardTally> backward_tallies(blocks.size());
+        for_each_block(blocks.size(), threads_, [&](std::size_t i) {
+            stored[i] = trace_backward(phase, collections, blocks[i], planes_, maps, readings_,
+                                       backward_tallies[i]);
+        });
+        counts_.backward_s += backward_watch.seconds();
+        counts_.backward_rays += readings_.samples_per_phase();
+        for (const BackwardTally& block : backward_tallies) {
+            counts_.backward_segments += block.segments;
+            counts_.shadow_segments += block.shadow_segments;
+        }
+
+        if (!traces_secondary(collections)) return;
+        Stopwatch map_watch;
+        const Radii hidden_radii = hidden_radii_.at_phase(radii_of);
+        BackwardMap backward_map(phase, hidden_radii, std::move(stored));
+        counts_.maps_s += map_watch.seconds();
+        counts_.backward_photons += backward_map.size();
+        backward_map_bytes_ = std::max<std::uint64_t>(backward_map_bytes_, backward_map.bytes());
+        Stopwatch watch;
+        trace_and_deposit(phase, backward_map, tally);
+        for_each_block(blocks.size(), threads_, [&](std::size_t i) {
+            backward_map.read(i, secondary_rays_,
+                              [&](std::uint32_t bin, const Lanes& radiance, const Lanes& bias) {
+                                  readings_.add(phase, bin, radiance, bias);
+                              });
+        });
+        counts_.secondary_s += watch.seconds();
     }
 
-    // Radii from a few rays of an extra phase whose results are not used (DESIGN decision 1).
-    void pilot() {
-        const Phase phase(stage_, settings_.seed, std::numeric_limits<std::uint32_t>::max());
+    // The photons of one history: caustics need no path beyond the first scattering event.
+    ForwardMap forward_map(const Phase& phase, History history, std::uint32_t rays,
+                           const Radii& radii, ForwardTally& tally) {
+        const bool caustic = history == History::caustic;
+        Stopwatch watch;
+        std::vector<Photon> photons = trace_photons(
+            phase, caustic ? RandomPurpose::caustic : RandomPurpose::indirect,
+            caustic ? Reach::first_scattering : Reach::whole_path, mask(history), rays, tally);
+        counts_.caustic_s += watch.seconds();
+        counts_.caustic_rays += rays;
+        counts_.forward_photons += photons.size();
+        counts_.forward_segments += tally.segments;
+        Stopwatch map_watch;
+        ForwardMap map(stage_, radii, std::move(photons), rays);
+        counts_.maps_s += map_watch.seconds();
+        return map;
+    }
+
+    // Phases whose results are not used (DESIGN decision 1): numbered from the end.
+    static constexpr std::uint32_t pilot_phase = std::numeric_limits<std::uint32_t>::max();
+    static constexpr bool is_pilot(std::uint32_t number) {
+        return number >= pilot_phase - pilot_phases;
+    }
+
+    // Radii and rays of the maps, from a few rays of a pilot phase.
+    void choose_radii() {
+        const Phase phase(stage_, settings_.seed, pilot_phase);
         ForwardTally unused(stage_.parts());
-        const auto radii = [&](Reach reach, std::uint32_t rays, double photons_per_kernel,
-                               bool seen) {
-            const std::uint32_t pilot_rays = std::max(rays, min_pilot_rays);
-            const double scale = static_cast<double>(rays) / pilot_rays;
-            const auto photons =
-                trace_photons(phase, RandomPurpose::pilot, reach, pilot_rays, unused);
-            return pilot_radii(stage_, planes_, photons, photons_per_kernel, scale, seen);
+        const auto trace = [&](Reach reach, std::uint8_t histories, std::uint32_t rays) {
+            rays = std::clamp(rays, min_pilot_rays, max_pilot_rays);
+            return PilotPhotons{
+                trace_photons(phase, RandomPurpose::pilot, reach, histories, rays, unused), rays};
         };
-        seen_radii_ =
-            radii(collection_.first_gather & mask(History::indirect) ? Reach::whole_path
-                                                                     : Reach::first_scattering,
-                  caustic_rays_, photons_per_seen_kernel, true);
-        hidden_radii_ = radii(Reach::whole_path, secondary_rays_, photons_per_hidden_kernel, false);
+        constexpr std::uint8_t caustic = mask(History::caustic);
+        constexpr std::uint8_t indirect = mask(History::indirect);
+        constexpr std::uint8_t all = mask(History::direct) | caustic | indirect;
+        caustic_radii_ =
+            narrow_radii(stage_, planes_, trace(Reach::first_scattering, caustic, caustic_rays_),
+                         photons_per_seen_kernel, caustic_rays_, true);
+        hidden_radii_ =
+            narrow_radii(stage_, planes_, trace(Reach::whole_path, all, secondary_rays_),
+                         photons_per_hidden_kernel, secondary_rays_, false);
+        const PilotPhotons photons = trace(Reach::whole_path, indirect, min_pilot_rays);
+        indirect_radii_ = wide_radii(stage_, planes_, photons);
+        indirect_rays_ = settings_.forward_rays.value_or(
+            std::clamp(rays_for(stage_, photons, indirect_radii_, photons_per_wide_kernel()),
+                       min_forward_rays, at_least_min(readings_.samples_per_phase())));
     }
 
-    // Photons of all rays of a trace, in the order of the rays. Those of a trace to the first
-    // scattering event are the caustic ones; of whole paths, all but direct light if a map of them
-    // is gathered at seen surfaces.
+    double photons_per_wide_kernel() const {
+        std::uint32_t rays = 1;
+        for (const ObserverBins& bins : readings_.observers()) {
+            if (is_camera(bins)) {
+                const Observer& observer = stage_.parts().observers[bins.observer];
+                rays = std::max(rays, bins.samples_per_bin / gathers_of_bin(bins, observer));
+            }
+        }
+        return photons_per_ray_of_wide_kernel * rays;
+    }
+
+    // Which of both ways to collect indirect light has less noise in a phase: the variance over
+    // pilot phases of the same pixels, that of emission and direct light apart.
+    void choose_collection_of_images() {
+        std::vector<BinBlock> of_images;
+        for (const BinBlock& block : readings_.blocks()) {
+            if (is_camera(readings_.observers()[block.observer_bins])) of_images.push_back(block);
+        }
+        if (of_images.empty()) return;
+        std::vector<BinBlock> some;
+        for (std::size_t i = 0; i < std::min(pilot_blocks, of_images.size()); ++i) {
+            some.push_back(
+                of_images[i * of_images.size() / std::min(pilot_blocks, of_images.size())]);
+        }
+        const std::uint32_t indirect_rays = std::exchange(indirect_rays_, min_pilot_rays);
+        const auto noise = [&](const Collection& collection) {
+            const Collections both{collection, collection};
+            for (std::uint32_t i = 1; i <= pilot_phases; ++i) {
+                const Phase phase(stage_, settings_.seed, pilot_phase - i);
+                ForwardTally unused(stage_.parts());
+                trace_phase(phase, both, some, unused);
+                readings_.fold(phase, threads_);
+            }
+            const double variance = readings_.image_variance();
+            readings_ = Readings(stage_.parts(), settings_);
+            return variance;
+        };
+        Collection combined = collections_.cameras;
+        Collection merged = Collection::merged_where_seen();
+        // Caustics are collected alike in both.
+        combined.first_gather = 0;
+        merged.first_gather = mask(History::indirect);
+        // The noise of a map falls with its rays, that of single rays to a second scattering event
+        // does not.
+        const double of_merged = noise(merged) * indirect_rays_ / indirect_rays;
+        if (of_merged < noise(combined)) collections_.cameras = Collection::merged_where_seen();
+        indirect_rays_ = indirect_rays;
+        counts_ = {};
+    }
+
+    // Photons of the given histories of all rays of a trace, in the order of the rays.
     std::vector<Photon> trace_photons(const Phase& phase, RandomPurpose purpose, Reach reach,
-                                      std::uint32_t rays, ForwardTally& tally) {
+                                      std::uint8_t histories, std::uint32_t rays,
+                                      ForwardTally& tally) {
         const std::uint32_t blocks = (rays + rays_per_block - 1) / rays_per_block;
         std::vector<std::vector<Photon>> photons(blocks);
         std::vector<ForwardTally> tallies(blocks, ForwardTally(stage_.parts()));
-        const bool keep_direct = purpose == RandomPurpose::pilot && reach == Reach::whole_path;
         for_each_block(blocks, threads_, [&](std::size_t block) {
             const auto first = static_cast<std::uint32_t>(block) * rays_per_block;
             for (std::uint32_t i = first; i < std::min(rays, first + rays_per_block); ++i) {
                 trace_forward(phase, purpose, i, reach, &planes_, tallies[block],
                               [&](const Photon& photon) {
-                                  if (keep_direct || photon.history != History::direct) {
+                                  if (histories & mask(photon.history)) {
                                       photons[block].push_back(photon);
                                   }
                               });
@@ -321,14 +424,15 @@ private:
     int threads_;
     SensorPlanes planes_;
     Readings readings_;
-    Collection collection_;
-    std::uint32_t caustic_rays_, secondary_rays_;     // per phase
-    std::optional<Radii> seen_radii_, hidden_radii_;  // of the first phase
-    ForwardTally total_;                              // over phases
-    std::vector<Estimate> received_;                  // per receiver: front, back
+    Collections collections_;
+    std::uint32_t caustic_rays_, secondary_rays_;          // per phase
+    std::uint32_t indirect_rays_ = 0;                      // per phase
+    Radii caustic_radii_, indirect_radii_, hidden_radii_;  // of the first phase
+    ForwardTally total_;                                   // over phases
+    std::vector<Estimate> received_;                       // per receiver: front, back
     std::vector<SensorTarget> receiver_targets_;
     RayCounts counts_;
-    std::uint64_t forward_map_bytes = 0, backward_map_bytes = 0;
+    std::uint64_t forward_map_bytes_ = 0, backward_map_bytes_ = 0;
     std::uint32_t phases_ = 0;
 };
 

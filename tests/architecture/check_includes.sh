@@ -39,7 +39,7 @@ libraries=(
     "yaml-cpp/ io/yaml_tree.*"
     "CLI/ cli/main.cpp"
 )
-system_headers=" fcntl.h unistd.h sys/resource.h sys/stat.h immintrin.h "
+system_headers=" fcntl.h malloc.h unistd.h sys/resource.h sys/stat.h immintrin.h "
 
 shopt -s extglob
 problems=0

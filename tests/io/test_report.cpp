@@ -16,7 +16,7 @@ TEST_CASE("The report holds what the result says", "[unit][report]") {
     CHECK(report["scene"] == "room.yaml");
     CHECK(report["scene_hash"] == "abc");
     CHECK(report["seed"] == 18446744073709551615ULL);
-    CHECK(report["method"] == "combined");
+    CHECK(report["method"] == "automatic");
     CHECK(report["threads"] == 2);
     CHECK(report["phases"] == 2);
     CHECK(report["stopped_by"] == "phases");

@@ -22,8 +22,7 @@ std::vector<Ray> first_rays(SceneBuilder scene, int samples_per_pixel, std::uint
     const Stage stage(scene.parts);
     const SensorPlanes planes(scene.parts, stage.caster(), 0.1);
     const Collection collection = Collection::of(Method::path, PlantedError::none);
-    const Radii no_radii({});
-    const ForwardMap no_map;
+    const ForwardMaps no_maps;
     std::vector<Ray> rays;
     for (std::uint32_t number = 0; number < phases; ++number) {
         Phase phase(stage, settings.seed, number);
@@ -31,7 +30,8 @@ std::vector<Ray> first_rays(SceneBuilder scene, int samples_per_pixel, std::uint
         Readings readings(scene.parts, settings);
         BackwardTally tally;
         for (const BinBlock& block : readings.blocks()) {
-            trace_backward(phase, collection, block, planes, no_map, no_radii, readings, tally);
+            trace_backward(phase, {collection, collection}, block, planes, no_maps, readings,
+                           tally);
         }
     }
     return rays;

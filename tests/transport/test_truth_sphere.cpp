@@ -33,7 +33,7 @@ TEST_CASE("Integrating sphere: a point source off its centre", "[analytic]") {
     scene.meter(Vec3::Zero(), {0.0, 0.0, -1.0}, half_angle_rad);
     if (method != Method::forward) scene.points({{0.0, 0.0, -0.3}}, Vec3::UnitZ());
     const Result result = test::run(scene, method,
-                                    {128, rho > 0.9                   ? 3000u
+                                    {160, rho > 0.9                   ? 3000u
                                           : method == Method::forward ? 30000u
                                                                       : 6000u});
 

@@ -55,7 +55,9 @@ struct ValidateOptions {
     std::size_t seeds = 1;
     std::uint64_t seed = 1;
     std::optional<int> threads;
-    std::optional<double> accuracy;  ///< to stop each run at, in place of a fixed effort
+    std::optional<double> accuracy;        ///< to stop each run at, in place of a fixed effort
+    std::optional<std::uint32_t> phases;   ///< of each run, in place of the case's own
+    std::optional<optics::Method> method;  ///< in place of the case's own
     std::optional<std::filesystem::path> output;  ///< folder of validation.json and .html
 };
 /// Runs validation cases and compares them with their truths.

@@ -19,6 +19,12 @@ using namespace lucerna;
 
 namespace {
 
+const std::map<std::string, optics::Method> methods{{"automatic", optics::Method::automatic},
+                                                    {"combined", optics::Method::combined},
+                                                    {"forward", optics::Method::forward},
+                                                    {"backward", optics::Method::backward},
+                                                    {"path", optics::Method::path}};
+
 // Hands a number with unit, such as 2% or 60s, to an optional value.
 std::function<void(const std::string&)> quantity_into(std::optional<double>& value,
                                                       const io::Dimension& dimension) {
@@ -73,12 +79,7 @@ struct CommandLine {
         run_command->add_option("--seed", run.seed, "Seed of the random numbers")
             ->check(CLI::NonNegativeNumber);
         run_command->add_option("--method", run.method, "Estimators to use")
-            ->transform(CLI::CheckedTransformer(
-                std::map<std::string, optics::Method>{{"automatic", optics::Method::automatic},
-                                                      {"combined", optics::Method::combined},
-                                                      {"forward", optics::Method::forward},
-                                                      {"backward", optics::Method::backward},
-                                                      {"path", optics::Method::path}}));
+            ->transform(CLI::CheckedTransformer(methods));
         run_command
             ->add_option("--spectral", run.spectral_bins, "Bins of the spectral image [0: none]")
             ->check(CLI::Range(0, 470));  // 1 nm over 360 to 830 nm
@@ -118,6 +119,11 @@ struct CommandLine {
                                   quantity_into(validate.accuracy, io::dimension::percent),
                                   "Stop each run at this uncertainty [a fixed effort per case]")
             ->type_name("PERCENT");
+        validate_command
+            ->add_option("--phases", validate.phases, "Phases of each run [those of the case]")
+            ->check(CLI::PositiveNumber);
+        validate_command->add_option("--method", validate.method, "Estimators [those of the case]")
+            ->transform(CLI::CheckedTransformer(methods));
         validate_command->add_option("-o,--output", validate.output,
                                      "Folder of validation.json and validation.html [none]");
 

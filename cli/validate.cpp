@@ -28,6 +28,8 @@ ExitCode validate(const ValidateOptions& options) {
     plan.first_seed = options.seed;
     plan.seeds = options.seeds;
     plan.accuracy = options.accuracy;
+    plan.phases = options.phases;
+    plan.method = options.method;
     plan.threads = options.threads.value_or(hardware_threads());
     const bool terminal = ::isatty(STDERR_FILENO) == 1;
     const std::size_t runs = cases.size() * plan.seeds;

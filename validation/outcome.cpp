@@ -19,12 +19,14 @@ double quantile(double coverage, double degrees_of_freedom) {
     return student_t(coverage, std::clamp(degrees_of_freedom, 1.0, 1e6));
 }
 
-Run run_case(const Case& own, std::uint64_t seed, const std::optional<double>& accuracy) {
+Run run_case(const Case& own, std::uint64_t seed, const RunPlan& plan) {
     optics::Settings settings = own.settings;
     settings.seed = seed;
     settings.threads = 1;
-    if (accuracy) {
-        settings.sensor_accuracy = settings.image_accuracy = accuracy;
+    if (plan.method) settings.method = *plan.method;
+    if (plan.phases) settings.max_phases = plan.phases;
+    if (plan.accuracy) {
+        settings.sensor_accuracy = settings.image_accuracy = plan.accuracy;
         settings.max_phases = std::nullopt;
     }
     const auto start = std::chrono::steady_clock::now();
@@ -35,7 +37,7 @@ Run run_case(const Case& own, std::uint64_t seed, const std::optional<double>& a
         .phases = result.phases,
         .checks = {}};
     for (const Check& check : own.checks) {
-        run.checks.push_back(judge(check, check.read(result), accuracy.value_or(0.0)));
+        run.checks.push_back(judge(check, check.read(result), plan.accuracy.value_or(0.0)));
     }
     return run;
 }
@@ -91,8 +93,7 @@ std::vector<CaseOutcome> run_cases(const std::vector<Case>& cases, const RunPlan
     for_each_block(cases.size() * plan.seeds, plan.threads, [&](std::size_t block) {
         const std::size_t number = block / plan.seeds;
         const std::size_t seed = block % plan.seeds;
-        outcomes[number].runs[seed] =
-            run_case(cases[number], plan.first_seed + seed, plan.accuracy);
+        outcomes[number].runs[seed] = run_case(cases[number], plan.first_seed + seed, plan);
         const std::scoped_lock lock(mutex);
         ++done;
         if (on_done) on_done(done);

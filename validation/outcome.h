@@ -53,6 +53,8 @@ struct RunPlan {
     /// Instead of a fixed number of phases: until U of all sensors and delta of all images is at
     /// most this share of the value.
     std::optional<double> accuracy = std::nullopt;
+    std::optional<std::uint32_t> phases = std::nullopt;   ///< in place of the case's own
+    std::optional<optics::Method> method = std::nullopt;  ///< in place of the case's own
 };
 
 /// Runs each case with each seed. The outcome does not depend on the threads but for wall times.

@@ -315,7 +315,7 @@ TEST_CASE("Glass in a furnace: illuminance in glass", "[analytic]") {
     }
     const double air = pi * luminance / (1.0 - rho);
     const test::Replicates runs = ball_runs(
-        ball, method, {9, 5000},
+        ball, method, {16, 5000},
         [&](SceneBuilder& scene) { scene.points(positions, Vec3::UnitZ()); }, air,
         [](const Result& result) { return std::vector{test::mean_of_sensors(result)}; });
     const double truth = mean_squared_index(ball) * air;

@@ -60,6 +60,7 @@ public:
           threads_(settings.threads > 0 ? settings.threads : hardware_threads()),
           planes_(stage_.parts(), stage_.caster(), stage_.caster().scene_radius_m() / 6.0),
           readings_(parts, settings),
+          observed_(!readings_.blocks().empty()),
           collections_{Collection::of(settings.method, settings.planted_error),
                        Collection::of(settings.method, settings.planted_error)},
           caustic_rays_(settings.forward_rays.value_or(
@@ -145,7 +146,7 @@ private:
 
     // Whether light of a history is gathered from its forward map by anyone.
     bool gathers(const Collections& collections, History history) const {
-        if (history == History::caustic && !stage_.has_caustics()) return false;
+        if (!observed_ || (history == History::caustic && !stage_.has_caustics())) return false;
         std::uint8_t wanted = collections.cameras.first_gather | collections.sensors.first_gather;
         if (planes_.count() > 0) wanted |= collections.sensors.sensor_gather;
         return wanted & mask(history);
@@ -239,26 +240,31 @@ private:
 
     // Radii and rays of the maps, from a few rays of a pilot phase.
     void choose_radii() {
+        if (!observed_) return;
         const Phase phase(stage_, settings_.seed, pilot_phase);
         ForwardTally unused(stage_.parts());
-        const auto trace = [&](Reach reach, std::uint8_t histories, std::uint32_t rays) {
-            rays = std::clamp(rays, min_pilot_rays, max_pilot_rays);
-            return PilotPhotons{
-                trace_photons(phase, RandomPurpose::pilot, reach, histories, rays, unused), rays};
-        };
         constexpr std::uint8_t caustic = mask(History::caustic);
         constexpr std::uint8_t indirect = mask(History::indirect);
         constexpr std::uint8_t all = mask(History::direct) | caustic | indirect;
-        caustic_radii_ =
-            narrow_radii(stage_, planes_, trace(Reach::first_scattering, caustic, caustic_rays_),
-                         photons_per_seen_kernel, caustic_rays_, true);
-        hidden_radii_ =
-            narrow_radii(stage_, planes_, trace(Reach::whole_path, all, secondary_rays_),
-                         photons_per_hidden_kernel, secondary_rays_, false);
-        const PilotPhotons photons = trace(Reach::whole_path, indirect, min_pilot_rays);
-        indirect_radii_ = wide_radii(stage_, planes_, photons);
+        const std::uint32_t rays =
+            std::clamp(std::max(caustic_rays_, secondary_rays_), min_pilot_rays, max_pilot_rays);
+        const PilotPhotons photons{
+            trace_photons(phase, RandomPurpose::pilot, Reach::whole_path, all, rays, unused), rays};
+        const auto of = [&](History history) {
+            PilotPhotons some{{}, rays};
+            for (const Photon& photon : photons.photons) {
+                if (photon.history == history) some.photons.push_back(photon);
+            }
+            return some;
+        };
+        caustic_radii_ = narrow_radii(stage_, planes_, of(History::caustic),
+                                      photons_per_seen_kernel, caustic_rays_, true);
+        hidden_radii_ = narrow_radii(stage_, planes_, photons, photons_per_hidden_kernel,
+                                     secondary_rays_, false);
+        const PilotPhotons of_indirect = of(History::indirect);
+        indirect_radii_ = wide_radii(stage_, planes_, of_indirect);
         indirect_rays_ = settings_.forward_rays.value_or(
-            std::clamp(rays_for(stage_, photons, indirect_radii_, photons_per_wide_kernel()),
+            std::clamp(rays_for(stage_, of_indirect, indirect_radii_, photons_per_wide_kernel()),
                        min_forward_rays, at_least_min(readings_.samples_per_phase())));
     }
 
@@ -424,6 +430,7 @@ private:
     int threads_;
     SensorPlanes planes_;
     Readings readings_;
+    bool observed_;  // by any camera or sensor
     Collections collections_;
     std::uint32_t caustic_rays_, secondary_rays_;          // per phase
     std::uint32_t indirect_rays_ = 0;                      // per phase

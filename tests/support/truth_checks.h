@@ -19,7 +19,7 @@ struct Effort {
 };
 
 inline optics::Result run(const SceneBuilder& scene, optics::Method method, const Effort& effort,
-                          std::uint64_t seed = 7, int threads = 0) {
+                          std::uint64_t seed = 7, int threads = 1) {
     optics::Settings settings;
     settings.method = method;
     settings.seed = seed;

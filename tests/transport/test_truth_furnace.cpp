@@ -41,7 +41,7 @@ Placement turned() {
 
 TEST_CASE("Furnace: a box room", "[analytic]") {
     const auto [rho, effort] = GENERATE(
-        table<double, test::Effort>({{0.2, {40, 1000}}, {0.5, {104, 2000}}, {0.9, {140, 5000}}}));
+        table<double, test::Effort>({{0.2, {32, 1000}}, {0.5, {72, 2500}}, {0.9, {104, 6000}}}));
     const auto method = GENERATE(Method::combined, Method::forward, Method::backward, Method::path);
     // Without specular surfaces the backward method is the combined one.
     if (method == Method::backward && rho != 0.5) return;

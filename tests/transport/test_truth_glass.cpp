@@ -272,7 +272,7 @@ TEST_CASE("Glass in a furnace: luminance in air and in glass", "[analytic]") {
                                       {Ball::dispersive, Method::backward}}));
     const double truth = luminance / (1.0 - rho);
     const test::Replicates runs = ball_runs(
-        ball, method, {48, 2000, 4},
+        ball, method, {38, 2000, 4},
         [](SceneBuilder& scene) {
             scene.camera({0.05, 0.05, 0.1}, centre, Vec3::UnitZ(), 0.5, 8, 8);           // the ball
             scene.camera({0.05, 0.1, 0.1}, {0.05, 1.0, 0.1}, Vec3::UnitZ(), 0.5, 8, 8);  // walls

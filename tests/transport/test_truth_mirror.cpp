@@ -77,6 +77,7 @@ double mean(bool camera, const Illuminance& illuminance) {
 TEST_CASE("Image source: a point light before a mirror", "[analytic]") {
     const bool camera = GENERATE(false, true);
     const auto method = GENERATE(Method::combined, Method::forward, Method::backward);
+    if (!camera && method == Method::backward) return;  // sensors are read as in combined
     const Vec3 lamp(1.0, 0.0, 1.0);
     const double intensity = 100.0;
     SceneBuilder scene = with_mirror(camera);

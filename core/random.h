@@ -16,7 +16,8 @@ enum class RandomPurpose : std::uint32_t {
     pilot,
     test,
     strata,
-    indirect
+    indirect,
+    masks
 };
 
 /// Random numbers of one path, Philox4x32-10 (Salmon et al., SC'11) by Random123.

@@ -1,7 +1,10 @@
 #include "optics/transport/backward_map.h"
 
+#include <tbb/spin_mutex.h>
+
 #include <algorithm>
 #include <bit>
+#include <mutex>
 
 namespace lucerna::optics {
 namespace {
@@ -11,36 +14,43 @@ constexpr double cell_per_radius = 2.0;
 
 }  // namespace
 
+// Each lock is that of many backward photons, far apart in their order.
+struct BackwardMap::Locks {
+    std::array<tbb::spin_mutex, 1 << 12> all;
+    tbb::spin_mutex& operator[](std::uint32_t index) { return all[index % all.size()]; }
+};
+
 BackwardMap::BackwardMap(const Phase& phase, const Radii& radii,
-                         std::vector<std::vector<BackwardPhoton>> blocks)
-    : phase_(&phase), radii_(&radii) {
+                         std::vector<std::vector<BackwardPhoton>> blocks, int threads)
+    : phase_(&phase), radii_(&radii), locks_(std::make_shared<Locks>()) {
     block_starts_.push_back(0);
     for (const auto& block : blocks) block_starts_.push_back(block_starts_.back() + block.size());
-    photons_.reserve(block_starts_.back());
-    for (auto& block : blocks) {
-        photons_.insert(photons_.end(), block.begin(), block.end());
-        block = {};
-    }
+    photons_.resize(block_starts_.back());
     sums_.resize(photons_.size());
     touched_.resize(photons_.size());
-
-    build_grid();
+    for_each_block(blocks.size(), threads, [&](std::size_t i) {
+        std::copy(blocks[i].begin(), blocks[i].end(),
+                  photons_.begin() + static_cast<std::ptrdiff_t>(block_starts_[i]));
+        blocks[i] = {};
+    });
+    build_grid(threads);
 }
 
-void BackwardMap::build_grid() {
+void BackwardMap::build_grid(int threads) {
     if (photons_.empty()) return;
-    // Counted and then filled in two equal walks over all cells that the kernels meet.
     bucket_mask_ = std::bit_ceil(4 * photons_.size()) - 1;
-    bucket_starts_.assign(bucket_mask_ + 2, 0);
-    std::vector<std::size_t> seen;  // of one photon
-    const auto for_each_bucket = [&](auto&& visit) {
-        for (std::uint32_t i = 0; i < photons_.size(); ++i) {
+    const std::size_t blocks = (photons_.size() + photons_per_task - 1) / photons_per_task;
+    grid_.build(bucket_mask_ + 1, blocks, threads, [&](std::size_t block, auto&& put) {
+        std::vector<std::size_t> seen;  // of one photon
+        const std::size_t end = std::min(photons_.size(), (block + 1) * photons_per_task);
+        for (std::size_t i = block * photons_per_task; i < end; ++i) {
             const Vec3& position = photons_[i].point.position;
             const std::uint32_t patch = kernel_patch(phase_->stage, photons_[i].point);
             const double radius_m = (*radii_)[patch];
             const Vec3 reach = Vec3::Constant(radius_m);
             const CellKey low = CellKey::at(patch, position - reach, cell_per_radius * radius_m);
             const CellKey high = CellKey::at(patch, position + reach, cell_per_radius * radius_m);
+            const Candidate candidate{position.cast<float>(), static_cast<std::uint32_t>(i)};
             seen.clear();
             for (std::int32_t x = low.x; x <= high.x; ++x) {
                 for (std::int32_t y = low.y; y <= high.y; ++y) {
@@ -48,24 +58,16 @@ void BackwardMap::build_grid() {
                         const std::size_t bucket = CellKey{patch, x, y, z}.hash() & bucket_mask_;
                         if (std::find(seen.begin(), seen.end(), bucket) != seen.end()) continue;
                         seen.push_back(bucket);
-                        visit(bucket, i);
+                        put(bucket, candidate);
                     }
                 }
             }
         }
-    };
-    for_each_bucket([&](std::size_t bucket, std::uint32_t) { ++bucket_starts_[bucket + 1]; });
-    for (std::size_t i = 1; i < bucket_starts_.size(); ++i) {
-        bucket_starts_[i] += bucket_starts_[i - 1];
-    }
-    candidates_.resize(bucket_starts_.back());
-    std::vector<std::uint32_t> next(bucket_starts_.begin(), bucket_starts_.end() - 1);
-    for_each_bucket([&](std::size_t bucket, std::uint32_t i) {
-        candidates_[next[bucket]++] = {photons_[i].point.position.cast<float>(), i};
     });
 }
 
-void BackwardMap::find(const Photon& photon, Deposits& deposits) const {
+template <typename Use>
+void BackwardMap::for_each_around(const Photon& photon, Use&& use) const {
     if (photons_.empty()) return;
     const Stage& stage = phase_->stage;
     const std::uint32_t patch = kernel_patch(stage, photon.point);
@@ -73,46 +75,60 @@ void BackwardMap::find(const Photon& photon, Deposits& deposits) const {
     // The quick test is in single precision and a little wide; in_kernel() decides.
     const auto square = static_cast<float>(radius_m * radius_m * 1.001);
     const Eigen::Vector3f position = photon.point.position.cast<float>();
-    const auto number = static_cast<std::uint32_t>(deposits.photons.size());
-    bool used = false;
     const CellKey key = CellKey::at(patch, photon.point.position, cell_per_radius * radius_m);
-    const std::size_t bucket = key.hash() & bucket_mask_;
-    for (std::uint32_t k = bucket_starts_[bucket]; k < bucket_starts_[bucket + 1]; ++k) {
-        const Candidate& candidate = candidates_[k];
+    for (const Candidate& candidate : grid_.bucket(key.hash() & bucket_mask_)) {
         if ((candidate.position - position).squaredNorm() > square) continue;
         const BackwardPhoton& backward = photons_[candidate.index];
         if (!(backward.accepts & static_cast<std::uint8_t>(photon.history))) continue;
         if (kernel_patch(stage, backward.point) != patch) continue;
         if (!in_kernel(stage, backward.point, photon.point, radius_m)) continue;
-        deposits.by_part[part_of(candidate.index)].push_back({candidate.index, number});
-        used = true;
+        use(candidate.index);
     }
+}
+
+void BackwardMap::find(const Photon& photon, Deposits& deposits) const {
+    const auto number = static_cast<std::uint32_t>(deposits.photons.size());
+    bool used = false;
+    for_each_around(photon, [&](std::uint32_t index) {
+        deposits.by_part[part_of(index)].push_back({index, number});
+        used = true;
+    });
     if (used) deposits.photons.push_back(photon);
+}
+
+void BackwardMap::add(std::uint32_t index, const Photon& photon) {
+    const BackwardPhoton& backward = photons_[index];
+    const SurfaceOptics optics = optics_at(*phase_, backward.medium_above, backward.medium_below,
+                                           backward.hero_only, phase_->wavelengths.hero);
+    const Vec3 wi = kernel_direction(bsdf_frame(*phase_, backward.point), photon);
+    Lanes f = evaluate(phase_->stage.parts().bsdfs[backward.bsdf], optics, backward.wo, wi,
+                       Transport::radiance);
+    f *= photon.flux;
+    sums_[index].radiance += f;
+    const std::uint32_t patch = kernel_patch(phase_->stage, backward.point);
+    if (in_kernel(phase_->stage, backward.point, photon.point,
+                  inner_radius_factor * (*radii_)[patch])) {
+        sums_[index].radiance_inner += f;
+    }
+    touched_[index] = 1;
 }
 
 std::uint64_t BackwardMap::apply(std::size_t part, std::span<const Deposits> blocks) {
     std::uint64_t count = 0;
     for (const Deposits& block : blocks) {
-        for (const auto& [index, number] : block.by_part[part]) {
-            const BackwardPhoton& backward = photons_[index];
-            const Photon& photon = block.photons[number];
-            const SurfaceOptics optics =
-                optics_at(*phase_, backward.medium_above, backward.medium_below, backward.hero_only,
-                          phase_->wavelengths.hero);
-            const Vec3 wi = kernel_direction(bsdf_frame(*phase_, backward.point), photon);
-            Lanes f = evaluate(phase_->stage.parts().bsdfs[backward.bsdf], optics, backward.wo, wi,
-                               Transport::radiance);
-            f *= photon.flux;
-            sums_[index].radiance += f;
-            const std::uint32_t patch = kernel_patch(phase_->stage, backward.point);
-            if (in_kernel(phase_->stage, backward.point, photon.point,
-                          inner_radius_factor * (*radii_)[patch])) {
-                sums_[index].radiance_inner += f;
-            }
-            touched_[index] = 1;
-            ++count;
-        }
+        count += block.by_part[part].size();
+        for (const auto& [index, number] : block.by_part[part]) add(index, block.photons[number]);
     }
+    return count;
+}
+
+std::uint64_t BackwardMap::deposit_locked(const Photon& photon) {
+    std::uint64_t count = 0;
+    for_each_around(photon, [&](std::uint32_t index) {
+        const std::scoped_lock lock((*locks_)[index]);
+        add(index, photon);
+        ++count;
+    });
     return count;
 }
 
@@ -129,8 +145,7 @@ Gathered BackwardMap::radiance(std::size_t i, std::uint64_t rays) const {
 }
 
 std::size_t BackwardMap::bytes() const {
-    return photons_.size() * (sizeof(BackwardPhoton) + sizeof(Gathered) + 1) +
-           bucket_starts_.size() * sizeof(std::uint32_t) + candidates_.size() * sizeof(Candidate);
+    return photons_.size() * (sizeof(BackwardPhoton) + sizeof(Gathered) + 1) + grid_.bytes();
 }
 
 }  // namespace lucerna::optics

@@ -2,6 +2,7 @@
 // forward rays hitting their surroundings.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "optics/transport/cell_grid.h"
@@ -21,15 +22,15 @@ struct BackwardPhoton {
     bool hero_only;
 };
 
-/// Filled by forward rays and then read once. The sums of a backward photon are written by one
-/// thread at a time and in the order of the rays, so that they do not depend on the number of
-/// threads.
+/// Filled by forward rays and then read once. By find() and apply() the sums of a backward photon
+/// are written by one thread at a time and in the order of the rays, so that they do not depend on
+/// the number of threads.
 class BackwardMap {
 public:
     BackwardMap() = default;
     /// @param blocks  backward photons of blocks of observer samples, in order.
     BackwardMap(const Phase& phase, const Radii& radii,
-                std::vector<std::vector<BackwardPhoton>> blocks);
+                std::vector<std::vector<BackwardPhoton>> blocks, int threads);
 
     /// What a block of forward rays left to deposit, sorted by the part of the map that it goes to.
     struct Deposits {
@@ -47,6 +48,10 @@ public:
     /// Adds the deposits of a part of the map, blocks in order; parts may run concurrently.
     /// Returns the number of deposits.
     std::uint64_t apply(std::size_t part, std::span<const Deposits> blocks);
+
+    /// Finds and adds at once, each backward photon under a lock; safe for concurrent use, but the
+    /// order of the sums is that of the threads. Returns the number of deposits.
+    std::uint64_t deposit_locked(const Photon& photon);
 
     /// Calls read(bin, radiance, bias of it) for each backward photon of a block of observer
     /// samples, in order; `rays` is the number of forward rays traced.
@@ -70,7 +75,10 @@ private:
         Eigen::Vector3f position;
         std::uint32_t index;
     };
-    void build_grid();
+    void build_grid(int threads);
+    template <typename Use>
+    void for_each_around(const Photon& photon, Use&& use) const;
+    void add(std::uint32_t index, const Photon& photon);
 
     Gathered radiance(std::size_t i, std::uint64_t rays) const;
     std::size_t part_of(std::uint32_t i) const { return i * parts / photons_.size(); }
@@ -82,8 +90,9 @@ private:
     std::vector<Gathered> sums_;  // of f dPhi, at both radii
     std::vector<std::uint8_t> touched_;
     std::size_t bucket_mask_ = 0;
-    std::vector<std::uint32_t> bucket_starts_;
-    std::vector<Candidate> candidates_;  // each photon stands in all cells that its kernel meets
+    BucketTable<Candidate> grid_;  // each photon stands in all cells that its kernel meets
+    struct Locks;
+    std::shared_ptr<Locks> locks_;
 };
 
 }  // namespace lucerna::optics

@@ -5,9 +5,6 @@
 namespace lucerna::optics {
 namespace {
 
-constexpr std::uint8_t mask(History history) {
-    return static_cast<std::uint8_t>(history);
-}
 constexpr std::uint8_t all_light =
     mask(History::direct) | mask(History::caustic) | mask(History::indirect);
 
@@ -18,7 +15,7 @@ constexpr double least_importance_to_branch = 0.02;
 class BackwardRay {
 public:
     BackwardRay(const Phase& phase, const Collection& collection, const SensorPlanes& planes,
-                const ForwardMaps& maps, Readings& readings, BackwardTally& tally,
+                const ForwardMaps& maps, PhaseReadings& readings, BackwardTally& tally,
                 std::vector<BackwardPhoton>& stored)
         : phase_(phase),
           collection_(collection),
@@ -278,7 +275,7 @@ private:
     const Collection& collection_;
     const SensorPlanes& planes_;
     const ForwardMaps& maps_;
-    Readings& readings_;
+    PhaseReadings& readings_;
     BackwardTally& tally_;
     std::vector<BackwardPhoton>& stored_;
 
@@ -339,11 +336,10 @@ Collection Collection::merged_where_seen() {
 }
 
 std::vector<BackwardPhoton> trace_backward(const Phase& phase, const Collections& collections,
-                                           const BinBlock& block, const SensorPlanes& planes,
-                                           const ForwardMaps& maps, Readings& readings,
-                                           BackwardTally& tally) {
+                                           const ObserverBins& bins, const BinBlock& block,
+                                           const SensorPlanes& planes, const ForwardMaps& maps,
+                                           PhaseReadings& readings, BackwardTally& tally) {
     std::vector<BackwardPhoton> stored;
-    const ObserverBins& bins = readings.observers()[block.observer_bins];
     const bool camera =
         std::holds_alternative<Camera>(phase.stage.parts().observers[bins.observer]);
     BackwardRay ray(phase, camera ? collections.cameras : collections.sensors, planes, maps,

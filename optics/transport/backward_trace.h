@@ -43,11 +43,11 @@ struct BackwardTally {
     std::uint64_t segments = 0, shadow_segments = 0;
 };
 
-/// Traces the backward rays of a block of bins: adds visible emission, direct and gathered light to
+/// Traces the backward rays of a block of bins of an observer: adds visible emission, direct and gathered light to
 /// the readings and returns the backward photons. Unbiased but for the kernels of the maps.
 std::vector<BackwardPhoton> trace_backward(const Phase& phase, const Collections& collections,
-                                           const BinBlock& block, const SensorPlanes& planes,
-                                           const ForwardMaps& maps, Readings& readings,
-                                           BackwardTally& tally);
+                                           const ObserverBins& bins, const BinBlock& block,
+                                           const SensorPlanes& planes, const ForwardMaps& maps,
+                                           PhaseReadings& readings, BackwardTally& tally);
 
 }  // namespace lucerna::optics

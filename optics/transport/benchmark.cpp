@@ -49,7 +49,8 @@ TraceRates measure_trace_rates(const SceneParts& parts, const Settings& settings
                           [](const Photon&) {});
         }
     });
-    Readings readings(parts, settings);
+    const Readings readings(parts, settings);
+    PhaseReadings values = readings.new_phase();
     const Collection combined = Collection::of(Method::combined, PlantedError::none);
     const ForwardMaps no_maps;
     rates.backward = rate(phase, [&] {
@@ -57,9 +58,10 @@ TraceRates measure_trace_rates(const SceneParts& parts, const Settings& settings
         std::uint64_t paths = 0;
         for (const BinBlock& block : readings.blocks()) {
             if (paths >= max_paths) break;
-            trace_backward(phase, {combined, combined}, block, planes, no_maps, readings, tally);
-            paths += (block.last - block.first) *
-                     readings.observers()[block.observer_bins].samples_per_bin;
+            const ObserverBins& bins = readings.observers()[block.observer_bins];
+            trace_backward(phase, {combined, combined}, bins, block, planes, no_maps, values,
+                           tally);
+            paths += (block.last - block.first) * bins.samples_per_bin;
         }
     });
     return rates;

@@ -1,7 +1,8 @@
 #include "optics/transport/forward_map.h"
 
-namespace lucerna::optics {
+#include <bit>
 
+namespace lucerna::optics {
 bool in_kernel(const Stage& stage, const SurfacePoint& p, const SurfacePoint& q, double radius_m) {
     if ((p.position - q.position).squaredNorm() >= radius_m * radius_m) return false;
     // On curved sides the distance is longer than the chord.
@@ -28,21 +29,28 @@ Vec3 kernel_direction(const Frame& frame, const Photon& photon) {
     return {wi.x() * stretch, wi.y() * stretch, cosine};
 }
 
-ForwardMap::ForwardMap(const Stage& stage, const Radii& radii, std::vector<Photon> photons,
-                       std::uint64_t rays)
-    : per_ray_(1.0 / static_cast<double>(rays)) {
-    std::vector<CellGrid<Place>::Entry> entries;
-    entries.reserve(photons.size());
-    for (std::uint32_t i = 0; i < photons.size(); ++i) {
-        const Vec3& position = photons[i].point.position;
-        const std::uint32_t patch = kernel_patch(stage, photons[i].point);
-        entries.push_back({CellKey::at(patch, position, 2.0 * radii[patch]), {position, i}});
-    }
-    grid_.build(std::move(entries));
-    photons_.reserve(photons.size());
-    grid_.for_each([&](Place& place) {
-        photons_.push_back(photons[place.photon]);
-        place.photon = static_cast<std::uint32_t>(photons_.size() - 1);
+ForwardMap::ForwardMap(const Stage& stage, const Radii& radii, const std::vector<Photon>& photons,
+                       std::uint64_t rays, int threads)
+    : bucket_mask_(std::bit_ceil(std::max<std::size_t>(2 * photons.size(), 16)) - 1),
+      photons_(photons.size()),
+      per_ray_(1.0 / static_cast<double>(rays)) {
+    const std::size_t blocks = (photons.size() + photons_per_task - 1) / photons_per_task;
+    grid_.build(bucket_mask_ + 1, blocks, threads, [&](std::size_t block, auto&& put) {
+        const std::size_t end = std::min(photons.size(), (block + 1) * photons_per_task);
+        for (std::size_t i = block * photons_per_task; i < end; ++i) {
+            const Vec3& position = photons[i].point.position;
+            const std::uint32_t patch = kernel_patch(stage, photons[i].point);
+            const CellKey cell = CellKey::at(patch, position, 2.0 * radii[patch]);
+            put(cell.hash() & bucket_mask_, {cell, position, static_cast<std::uint32_t>(i)});
+        }
+    });
+    const std::span<Place> places = grid_.items();
+    for_each_block(blocks, threads, [&](std::size_t block) {
+        const std::size_t end = std::min(photons.size(), (block + 1) * photons_per_task);
+        for (std::size_t i = block * photons_per_task; i < end; ++i) {
+            photons_[i] = photons[places[i].photon];
+            places[i].photon = static_cast<std::uint32_t>(i);
+        }
     });
 }
 
@@ -69,10 +77,12 @@ Gathered ForwardMap::gather(const Phase& phase, const Radii& radii, const Gather
     for (std::int32_t x = low.x; x <= high.x; ++x) {
         for (std::int32_t y = low.y; y <= high.y; ++y) {
             for (std::int32_t z = low.z; z <= high.z; ++z) {
-                grid_.visit({patch, x, y, z}, [&](const Place& place) {
-                    if ((at.point.position - place.position).squaredNorm() >= square_m2) return;
+                const CellKey cell{patch, x, y, z};
+                for (const Place& place : grid_.bucket(cell.hash() & bucket_mask_)) {
+                    if (place.cell != cell) continue;
+                    if ((at.point.position - place.position).squaredNorm() >= square_m2) continue;
                     const Photon& photon = photons_[place.photon];
-                    if (!in_kernel(stage, at.point, photon.point, radius_m)) return;
+                    if (!in_kernel(stage, at.point, photon.point, radius_m)) continue;
                     found = true;
                     const bool above = photon.direction.dot(photon.point.normal) < 0.0;
                     const Lanes light =
@@ -82,7 +92,7 @@ Gathered ForwardMap::gather(const Phase& phase, const Radii& radii, const Gather
                     if (in_kernel(stage, at.point, photon.point, inner_m)) {
                         sum.radiance_inner += light;
                     }
-                });
+                }
             }
         }
     }

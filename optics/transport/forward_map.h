@@ -56,8 +56,8 @@ class ForwardMap {
 public:
     ForwardMap() = default;
     /// @param rays  number of forward rays whose photons these are.
-    ForwardMap(const Stage& stage, const Radii& radii, std::vector<Photon> photons,
-               std::uint64_t rays);
+    ForwardMap(const Stage& stage, const Radii& radii, const std::vector<Photon>& photons,
+               std::uint64_t rays, int threads);
 
     /// Scattered radiance at a point from the photons around it.
     Gathered gather(const Phase& phase, const Radii& radii, const GatherPoint& at) const;
@@ -67,12 +67,15 @@ public:
     std::size_t bytes() const { return photons_.size() * sizeof(Photon) + grid_.bytes(); }
 
 private:
-    std::vector<Photon> photons_;  // in the order of the grid
+    // A photon as it stands in its bucket of the hashed grid.
     struct Place {
+        CellKey cell;
         Vec3 position;  // beside the key, as most photons of a cell are out of reach
         std::uint32_t photon;
     };
-    CellGrid<Place> grid_;  // cell size: twice the patch's radius
+    BucketTable<Place> grid_;  // cell size: twice the patch's radius
+    std::size_t bucket_mask_ = 0;
+    std::vector<Photon> photons_;  // in the order of the grid
     double per_ray_ = 0.0;
 };
 

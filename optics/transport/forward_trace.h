@@ -16,6 +16,11 @@ enum class History : std::uint8_t {
     indirect = 4  ///< one scattering event at least
 };
 
+/// Set of histories with one member; sets are or-ed.
+constexpr std::uint8_t mask(History history) {
+    return static_cast<std::uint8_t>(history);
+}
+
 /// A ray bundle from a light that arrives at a surface with scattering properties; it carries
 /// spectral flux, not a quantum of energy.
 struct Photon {

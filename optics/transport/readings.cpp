@@ -68,6 +68,36 @@ std::size_t bins_of(const Observer& observer) {
 
 }  // namespace
 
+PhaseReadings::PhaseReadings(std::size_t bins, std::size_t spectral_bins)
+    : values_(bins), spectral_bins_(spectral_bins), spectral_(bins * spectral_bins) {}
+
+void PhaseReadings::add(const Phase& phase, std::size_t bin, const Lanes& radiance) {
+    Value& value = values_[bin];
+    value.x += static_cast<double>((radiance * phase.wavelengths.x).sum());
+    value.y += static_cast<double>((radiance * phase.wavelengths.luminance).sum());
+    value.z += static_cast<double>((radiance * phase.wavelengths.z).sum());
+    if (spectral_bins_ == 0) return;
+    constexpr double range_nm = spectral::max_wavelength_nm - spectral::min_wavelength_nm;
+    for (int lane = 0; lane < spectral::lane_count; ++lane) {
+        const double nm = phase.wavelengths.wavelength_nm[static_cast<std::size_t>(lane)];
+        const double place = (nm - spectral::min_wavelength_nm) / range_nm;
+        const auto spectral_bin =
+            std::min(spectral_bins_ - 1,
+                     static_cast<std::size_t>(place * static_cast<double>(spectral_bins_)));
+        spectral_[bin * spectral_bins_ + spectral_bin] +=
+            static_cast<double>(radiance[lane] * phase.wavelengths.interval_nm[lane]);
+    }
+}
+
+void PhaseReadings::add(const Phase& phase, std::size_t bin, const Lanes& radiance,
+                        const Lanes& bias) {
+    add(phase, bin, radiance);
+    Value& value = values_[bin];
+    value.x_bias += static_cast<double>((bias * phase.wavelengths.x).sum());
+    value.y_bias += static_cast<double>((bias * phase.wavelengths.luminance).sum());
+    value.z_bias += static_cast<double>((bias * phase.wavelengths.z).sum());
+}
+
 Readings::Readings(const SceneParts& parts, const Settings& settings)
     : spectral_bins_(static_cast<std::size_t>(settings.spectral_bins)) {
     std::size_t bins = 0;
@@ -104,47 +134,22 @@ Readings::Readings(const SceneParts& parts, const Settings& settings)
         const spectral::Xyz xyz = spectral::tristimulus(parts.spectra[light.flux_w_per_nm]);
         emission_ += Vec3(xyz.x, xyz.y, xyz.z);
     }
-    phase_.resize(bins);
     luminance_.resize(bins);
     x_sum_.resize(bins);
     z_sum_.resize(bins);
     spectral_sum_.resize(bins * spectral_bins_);
 }
 
-void Readings::add(const Phase& phase, std::size_t bin, const Lanes& radiance) {
-    PhaseValue& value = phase_[bin];
-    value.x += static_cast<double>((radiance * phase.wavelengths.x).sum());
-    value.y += static_cast<double>((radiance * phase.wavelengths.luminance).sum());
-    value.z += static_cast<double>((radiance * phase.wavelengths.z).sum());
-    if (spectral_bins_ == 0) return;
-    constexpr double range_nm = spectral::max_wavelength_nm - spectral::min_wavelength_nm;
-    for (int lane = 0; lane < spectral::lane_count; ++lane) {
-        const double nm = phase.wavelengths.wavelength_nm[static_cast<std::size_t>(lane)];
-        const double place = (nm - spectral::min_wavelength_nm) / range_nm;
-        const auto spectral_bin =
-            std::min(spectral_bins_ - 1,
-                     static_cast<std::size_t>(place * static_cast<double>(spectral_bins_)));
-        spectral_sum_[bin * spectral_bins_ + spectral_bin] +=
-            static_cast<double>(radiance[lane] * phase.wavelengths.interval_nm[lane]);
-    }
-}
-
-void Readings::add(const Phase& phase, std::size_t bin, const Lanes& radiance, const Lanes& bias) {
-    add(phase, bin, radiance);
-    PhaseValue& value = phase_[bin];
-    value.x_bias += static_cast<double>((bias * phase.wavelengths.x).sum());
-    value.y_bias += static_cast<double>((bias * phase.wavelengths.luminance).sum());
-    value.z_bias += static_cast<double>((bias * phase.wavelengths.z).sum());
-}
-
-void Readings::fold_means(const ObserverBins& bins, ImageMeans& means) {
+void Readings::fold_means(const PhaseReadings& values, const ObserverBins& bins,
+                          ImageMeans& means) {
     const std::size_t columns = tiles_along(means.width);
     std::vector<double> sums(means.tiles.size());
     std::vector<double> biases(means.tiles.size());
     std::vector<double> pixels(means.tiles.size());
     for (std::size_t row = 0; row < means.height; ++row) {
         for (std::size_t column = 0; column < means.width; ++column) {
-            const PhaseValue& value = phase_[bins.first_bin + row * means.width + column];
+            const PhaseReadings::Value& value =
+                values.values_[bins.first_bin + row * means.width + column];
             const std::size_t tile = row / Image::tile_size * columns + column / Image::tile_size;
             sums[tile] += value.y;
             biases[tile] += value.y_bias;
@@ -162,30 +167,35 @@ void Readings::fold_means(const ObserverBins& bins, ImageMeans& means) {
     means.whole.add(sum / count, bias / count);
 }
 
-void Readings::fold(const Phase& phase, int threads) {
+void Readings::fold(const Phase& phase, PhaseReadings& values, int threads) {
     for_each_block(observers_.size(), threads, [&](std::size_t i) {
-        if (is_camera_[i]) fold_means(observers_[i], means_[i]);
+        if (is_camera_[i]) fold_means(values, observers_[i], means_[i]);
     });
-    fold_sensors(phase);
+    fold_sensors(phase, values);
     constexpr std::size_t block = 1 << 14;
-    for_each_block((phase_.size() + block - 1) / block, threads, [&](std::size_t b) {
-        const std::size_t end = std::min(phase_.size(), (b + 1) * block);
+    for_each_block((luminance_.size() + block - 1) / block, threads, [&](std::size_t b) {
+        const std::size_t end = std::min(luminance_.size(), (b + 1) * block);
         for (std::size_t bin = b * block; bin < end; ++bin) {
-            luminance_[bin].add(phase_[bin].y, phase_[bin].y_bias);
-            x_sum_[bin] += phase_[bin].x;
-            z_sum_[bin] += phase_[bin].z;
-            phase_[bin] = {};
+            PhaseReadings::Value& value = values.values_[bin];
+            luminance_[bin].add(value.y, value.y_bias);
+            x_sum_[bin] += value.x;
+            z_sum_[bin] += value.z;
+            value = {};
+        }
+        for (std::size_t i = b * block * spectral_bins_; i < end * spectral_bins_; ++i) {
+            spectral_sum_[i] += values.spectral_[i];
+            values.spectral_[i] = 0.0;
         }
     });
 }
 
-void Readings::fold_sensors(const Phase& phase) {
+void Readings::fold_sensors(const Phase& phase, const PhaseReadings& readings) {
     std::vector<double> values;
     values.reserve(3 * sensor_bins_ + 3);
     for (std::size_t i = 0; i < observers_.size(); ++i) {
         if (is_camera_[i]) continue;
         for (std::size_t bin = 0; bin < observers_[i].count; ++bin) {
-            const PhaseValue& value = phase_[observers_[i].first_bin + bin];
+            const PhaseReadings::Value& value = readings.values_[observers_[i].first_bin + bin];
             values.insert(values.end(),
                           {value.x - value.x_bias, value.y - value.y_bias, value.z - value.z_bias});
         }
@@ -443,7 +453,8 @@ std::vector<DerivedQuantity> Readings::derived(const SceneParts& parts) const {
 }
 
 std::size_t Readings::bytes() const {
-    return phase_.size() * (sizeof(PhaseValue) + sizeof(Estimate) + 2 * sizeof(double)) +
+    const std::size_t of_phase = sizeof(PhaseReadings::Value) + spectral_bins_ * sizeof(double);
+    return luminance_.size() * (of_phase + sizeof(Estimate) + 2 * sizeof(double)) +
            spectral_sum_.size() * sizeof(double) + sensors_.bytes();
 }
 

@@ -25,7 +25,29 @@ struct BinBlock {
     std::size_t first, last;    ///< bins within the observer, last excluded
 };
 
-/// Different bins may be written by different threads at the same time.
+/// What all bins read in one phase; different bins may be written by different threads at the same
+/// time.
+class PhaseReadings {
+public:
+    PhaseReadings(std::size_t bins, std::size_t spectral_bins);
+
+    /// Adds to the value of a bin a radiance, or an irradiance [W/(m2 (sr) nm)].
+    void add(const Phase& phase, std::size_t bin, const Lanes& radiance);
+    /// Adds what a kernel collected, with its bias as measured in this phase, to a bin.
+    void add(const Phase& phase, std::size_t bin, const Lanes& radiance, const Lanes& bias);
+
+private:
+    friend class Readings;
+    struct Value {
+        double x = 0.0, y = 0.0, z = 0.0;
+        double x_bias = 0.0, y_bias = 0.0, z_bias = 0.0;
+    };
+    std::vector<Value> values_;
+    std::size_t spectral_bins_;
+    std::vector<double> spectral_;  // [bin][spectral bin], W/(m2 sr)
+};
+
+/// The estimates over phases.
 class Readings {
 public:
     Readings(const SceneParts& parts, const Settings& settings);
@@ -35,13 +57,10 @@ public:
     std::size_t bin_count() const { return luminance_.size(); }
     std::uint64_t samples_per_phase() const { return samples_; }
 
-    /// Adds to the phase value of a bin a radiance, or an irradiance [W/(m2 (sr) nm)].
-    void add(const Phase& phase, std::size_t bin, const Lanes& radiance);
-    /// Adds what a kernel collected, with its bias as measured in this phase, to a bin.
-    void add(const Phase& phase, std::size_t bin, const Lanes& radiance, const Lanes& bias);
-
+    /// Readings of a phase, all of them zero.
+    PhaseReadings new_phase() const { return {luminance_.size(), spectral_bins_}; }
     /// Ends a phase: its values enter the estimates and are set back to zero.
-    void fold(const Phase& phase, int threads);
+    void fold(const Phase& phase, PhaseReadings& values, int threads);
 
     std::vector<Image> images(const SceneParts& parts) const;
     std::vector<Quantity> quantities(const SceneParts& parts) const;
@@ -56,11 +75,6 @@ public:
     std::size_t bytes() const;
 
 private:
-    struct PhaseValue {
-        double x = 0.0, y = 0.0, z = 0.0;
-        double x_bias = 0.0, y_bias = 0.0, z_bias = 0.0;
-    };
-
     // Means over parts of an image, empty for sensors.
     struct ImageMeans {
         std::size_t width = 0, height = 0;
@@ -74,8 +88,9 @@ private:
         double square = 0.0, noise = 0.0, bias = 0.0;
     };
 
-    void fold_means(const ObserverBins& bins, ImageMeans& means);
-    void fold_sensors(const Phase& phase);
+    static void fold_means(const PhaseReadings& values, const ObserverBins& bins,
+                           ImageMeans& means);
+    void fold_sensors(const Phase& phase, const PhaseReadings& readings);
     ImageError image_error(const ObserverBins& bins) const;
     std::optional<Colour> colour(std::size_t sensor_bin) const;
 
@@ -84,7 +99,6 @@ private:
     std::vector<bool> is_camera_;    // per ObserverBins
     std::vector<ImageMeans> means_;  // per ObserverBins
     std::uint64_t samples_ = 0;
-    std::vector<PhaseValue> phase_;
     std::vector<Estimate> luminance_;
     std::vector<double> x_sum_, z_sum_;          // kernel bias included
     std::vector<SensorTarget> targets_;          // per ObserverBins; of cameras not used

@@ -84,6 +84,8 @@ struct RayCounts {
     std::uint64_t scattering_hits = 0;   ///< hits of secondary rays on scattering surfaces
     std::uint64_t deposits = 0;
     double backward_s = 0.0, caustic_s = 0.0, secondary_s = 0.0, maps_s = 0.0;  ///< wall time
+
+    void operator+=(const RayCounts& other);
 };
 
 struct Result {

@@ -18,6 +18,16 @@ enum class Method {
     path
 };
 
+/// How the work of a phase is shared among threads (METHOD section 4).
+enum class Scheduler {
+    ordered,       ///< all threads on one phase; deposits are sorted by place before they are added,
+                   ///< so that no two threads write to the same: same bits for any threads
+    synchronous,   ///< all threads on one phase; deposits are added under locks, in any order
+    asynchronous,  ///< each thread on a phase and maps of its own; the same bits as `ordered`, for
+                   ///< as many times its memory as there are threads
+    two_level      ///< groups of threads, each with the map of its part of the image
+};
+
 /// Errors of the partition of light that a test can plant, to show that it would notice them.
 enum class PlantedError {
     none,
@@ -41,6 +51,7 @@ struct Settings {
     Method method = Method::automatic;
     std::uint64_t seed = 1;
     int threads = 0;                        ///< 0: all of the machine
+    Scheduler scheduler = Scheduler::ordered;
     std::optional<double> image_accuracy;   ///< delta of METHOD eq. 6 to stop at, such as 0.02
     std::optional<double> sensor_accuracy;  ///< U / value of each sensor to stop at, such as 0.01
     std::vector<SensorTarget> sensor_targets;  ///< of single sensors, in place of sensor_accuracy

@@ -27,11 +27,13 @@ std::vector<Ray> first_rays(SceneBuilder scene, int samples_per_pixel, std::uint
     for (std::uint32_t number = 0; number < phases; ++number) {
         Phase phase(stage, settings.seed, number);
         phase.ray_log = &rays;
-        Readings readings(scene.parts, settings);
+        const Readings readings(scene.parts, settings);
+        PhaseReadings values = readings.new_phase();
         BackwardTally tally;
         for (const BinBlock& block : readings.blocks()) {
-            trace_backward(phase, {collection, collection}, block, planes, no_maps, readings,
-                           tally);
+            trace_backward(phase, {collection, collection},
+                           readings.observers()[block.observer_bins], block, planes, no_maps,
+                           values, tally);
         }
     }
     return rays;

@@ -1,0 +1,145 @@
+#include "optics/transport/plan.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace lucerna::optics {
+namespace {
+
+constexpr std::uint32_t min_pilot_rays = 1 << 14, max_pilot_rays = 1 << 15;
+// What the choice of the collection for images is made from.
+constexpr std::uint32_t pilot_phases = 4;
+constexpr std::size_t pilot_blocks = 64;
+constexpr std::uint32_t min_forward_rays = 20000;
+// Secondary forward rays per backward ray: their noise is averaged over all second scattering
+// events that a kernel serves, so that few are enough (the same delta with 1 and with 1/4 in
+// diffuse rooms).
+constexpr std::uint64_t backward_per_secondary_ray = 16;
+constexpr std::uint64_t backward_per_caustic_ray = 4;
+// Expected photons in a kernel of the first phase: few where the kernel is hidden behind a
+// scattering event, more where it is seen.
+constexpr double photons_per_hidden_kernel = 16.0;
+constexpr double photons_per_seen_kernel = 24.0;
+// Where all indirect light is gathered at seen surfaces, it is mostly smooth: kernels are as wide
+// as their bias allows. For each ray that a gather stands for, this many photons in the kernel, on
+// average: then the maps have about the noise of the direct light, and gathering about its cost.
+constexpr double photons_per_ray_of_wide_kernel = 32.0;
+// Pilot phases are numbered from the end.
+constexpr std::uint32_t pilot_phase = std::numeric_limits<std::uint32_t>::max();
+
+std::uint32_t at_least_min(std::uint64_t rays) {
+    return static_cast<std::uint32_t>(std::max<std::uint64_t>(min_forward_rays, rays));
+}
+
+bool is_camera(const Setting& setting, const ObserverBins& bins) {
+    return std::holds_alternative<Camera>(setting.stage.parts().observers[bins.observer]);
+}
+
+double photons_per_wide_kernel(const Setting& setting) {
+    std::uint32_t rays = 1;
+    for (const ObserverBins& bins : setting.readings.observers()) {
+        if (is_camera(setting, bins)) {
+            const Observer& observer = setting.stage.parts().observers[bins.observer];
+            rays = std::max(rays, bins.samples_per_bin / gathers_of_bin(bins, observer));
+        }
+    }
+    return photons_per_ray_of_wide_kernel * rays;
+}
+
+// Radii and rays of the maps, from the rays of a pilot phase.
+void choose_radii(const Setting& setting, const Settings& settings, Plan& plan) {
+    const Stage& stage = setting.stage;
+    const Phase phase(stage, settings.seed, pilot_phase);
+    ForwardTally unused(stage.parts());
+    constexpr std::uint8_t all =
+        mask(History::direct) | mask(History::caustic) | mask(History::indirect);
+    const std::uint32_t rays = std::clamp(std::max(plan.caustic_rays, plan.secondary_rays),
+                                          min_pilot_rays, max_pilot_rays);
+    const PilotPhotons photons{trace_photons(phase, setting, RandomPurpose::pilot,
+                                             Reach::whole_path, all, rays, unused),
+                               rays};
+    const auto of = [&](History history) {
+        PilotPhotons some{{}, rays};
+        for (const Photon& photon : photons.photons) {
+            if (photon.history == history) some.photons.push_back(photon);
+        }
+        return some;
+    };
+    plan.caustic_radii = narrow_radii(stage, setting.planes, of(History::caustic),
+                                      photons_per_seen_kernel, plan.caustic_rays, true);
+    plan.hidden_radii = narrow_radii(stage, setting.planes, photons, photons_per_hidden_kernel,
+                                     plan.secondary_rays, false);
+    const PilotPhotons indirect = of(History::indirect);
+    plan.indirect_radii = wide_radii(stage, setting.planes, indirect);
+    plan.indirect_rays = settings.forward_rays.value_or(std::clamp(
+        rays_for(stage, indirect, plan.indirect_radii, photons_per_wide_kernel(setting)),
+        min_forward_rays, at_least_min(setting.readings.samples_per_phase())));
+}
+
+// Blocks spread evenly over all images.
+std::vector<BinBlock> some_of_images(const Setting& setting) {
+    std::vector<BinBlock> of_images;
+    for (const BinBlock& block : setting.readings.blocks()) {
+        if (is_camera(setting, setting.readings.observers()[block.observer_bins])) {
+            of_images.push_back(block);
+        }
+    }
+    std::vector<BinBlock> some;
+    const std::size_t count = std::min(pilot_blocks, of_images.size());
+    for (std::size_t i = 0; i < count; ++i) {
+        some.push_back(of_images[i * of_images.size() / count]);
+    }
+    return some;
+}
+
+// Which of both ways to collect indirect light has less noise in a phase: the variance over pilot
+// phases of the same pixels, that of emission and direct light apart.
+void choose_collection_of_images(const Setting& setting, const Settings& settings, Plan& plan) {
+    const std::vector<BinBlock> blocks = some_of_images(setting);
+    if (blocks.empty()) return;
+    const auto noise = [&](const Collection& collection, std::uint32_t indirect_rays) {
+        Plan pilot = plan;
+        pilot.collections = {collection, collection};
+        pilot.indirect_rays = indirect_rays;
+        Readings readings = setting.readings;
+        PhaseTrace trace(setting);
+        for (std::uint32_t i = 1; i <= pilot_phases; ++i) {
+            const Phase phase(setting.stage, settings.seed, pilot_phase - i);
+            trace_phase(phase, setting, pilot, blocks, 0, trace);
+            readings.fold(phase, trace.readings, setting.threads);
+        }
+        return readings.image_variance();
+    };
+    Collection combined = plan.collections.cameras;
+    Collection merged = Collection::merged_where_seen();
+    // Caustics are collected alike in both.
+    combined.first_gather = 0;
+    merged.first_gather = mask(History::indirect);
+    // The noise of a map falls with its rays, that of single rays to a second scattering event does
+    // not.
+    const double of_merged = noise(merged, min_pilot_rays) * min_pilot_rays / plan.indirect_rays;
+    if (of_merged < noise(combined, min_pilot_rays)) {
+        plan.collections.cameras = Collection::merged_where_seen();
+    }
+}
+
+}  // namespace
+
+Plan make_plan(const Setting& setting, const Settings& settings) {
+    Plan plan;
+    const Collection collection = Collection::of(settings.method, settings.planted_error);
+    plan.collections = {collection, collection};
+    const std::uint64_t samples = setting.readings.samples_per_phase();
+    plan.caustic_rays =
+        settings.forward_rays.value_or(at_least_min(samples / backward_per_caustic_ray));
+    plan.secondary_rays =
+        settings.forward_rays.value_or(at_least_min(samples / backward_per_secondary_ray));
+    plan.observed = !setting.readings.blocks().empty();
+    if (!plan.observed) return plan;
+    choose_radii(setting, settings, plan);
+    if (settings.method == Method::automatic) choose_collection_of_images(setting, settings, plan);
+    return plan;
+}
+
+}  // namespace lucerna::optics

@@ -29,6 +29,7 @@ struct RunOptions {
     std::optional<int> threads;
     std::optional<std::uint64_t> seed;
     std::optional<optics::Method> method;
+    std::optional<optics::Scheduler> scheduler;
     std::optional<int> spectral_bins;
 };
 

@@ -19,6 +19,11 @@ using namespace lucerna;
 
 namespace {
 
+const std::map<std::string, optics::Scheduler> schedulers{
+    {"ordered", optics::Scheduler::ordered},
+    {"synchronous", optics::Scheduler::synchronous},
+    {"asynchronous", optics::Scheduler::asynchronous},
+    {"two-level", optics::Scheduler::two_level}};
 const std::map<std::string, optics::Method> methods{{"automatic", optics::Method::automatic},
                                                     {"combined", optics::Method::combined},
                                                     {"forward", optics::Method::forward},
@@ -80,6 +85,11 @@ struct CommandLine {
             ->check(CLI::NonNegativeNumber);
         run_command->add_option("--method", run.method, "Estimators to use")
             ->transform(CLI::CheckedTransformer(methods));
+        run_command
+            ->add_option("--scheduler", run.scheduler,
+                         "How threads share the work; synchronous and two-level do not give the "
+                         "same bits twice [ordered]")
+            ->transform(CLI::CheckedTransformer(schedulers));
         run_command
             ->add_option("--spectral", run.spectral_bins, "Bins of the spectral image [0: none]")
             ->check(CLI::Range(0, 470));  // 1 nm over 360 to 830 nm

@@ -31,6 +31,7 @@ optics::Settings merged(optics::Settings settings, const RunOptions& options) {
     if (options.threads) settings.threads = *options.threads;
     if (options.seed) settings.seed = *options.seed;
     if (options.method) settings.method = *options.method;
+    if (options.scheduler) settings.scheduler = *options.scheduler;
     if (options.spectral_bins) settings.spectral_bins = *options.spectral_bins;
     return settings;
 }

@@ -38,6 +38,20 @@ private:
     std::vector<std::string> not_finite_;
 };
 
+std::string scheduler_name(optics::Scheduler scheduler) {
+    switch (scheduler) {
+        case optics::Scheduler::ordered:
+            return "ordered";
+        case optics::Scheduler::synchronous:
+            return "synchronous";
+        case optics::Scheduler::asynchronous:
+            return "asynchronous";
+        case optics::Scheduler::two_level:
+            return "two-level";
+    }
+    throw std::logic_error("unknown scheduler");
+}
+
 std::string method_name(optics::Method method) {
     switch (method) {
         case optics::Method::automatic:
@@ -154,6 +168,7 @@ std::string report_json(const optics::Result& result, const ReportSource& source
                  {"scene_hash", source.scene_hash},
                  {"seed", result.settings.seed},
                  {"method", method_name(result.settings.method)},
+                 {"scheduler", scheduler_name(result.settings.scheduler)},
                  {"polarisation", result.settings.polarisation.value_or(false)},
                  {"threads", threads},
                  {"phases", result.phases},

@@ -63,7 +63,7 @@ TEST_CASE("What two radii tell of the kernel bias makes a curved field exact", "
         }
     }
     const Radii radii({radius_m});
-    const ForwardMap map(stage, radii, std::move(photons), static_cast<std::uint64_t>(rays));
+    const ForwardMap map(stage, radii, photons, static_cast<std::uint64_t>(rays), 1);
     const SurfacePoint point{centre, Vec3::UnitZ(), plate};
     const Frame frame(point.normal);
     const Vec3 wo = Vec3::UnitZ();

@@ -10,13 +10,15 @@ using namespace lucerna::optics;
 
 namespace {
 
-Result run(int threads, std::uint64_t seed, Method method) {
+Result run(int threads, std::uint64_t seed, Method method,
+           Scheduler scheduler = Scheduler::ordered) {
     auto scene = test::cornell_caustic(40);
     scene.points({{0.5, 0.4, 0.5}, {0.2, 0.4, 0.5}}, Vec3::UnitY());
     scene.receiver(0);
     Settings settings;
     settings.method = method;
     settings.threads = threads;
+    settings.scheduler = scheduler;
     settings.seed = seed;
     settings.max_phases = 3;
     settings.forward_rays = 5000;
@@ -49,4 +51,11 @@ TEST_CASE("Same seed, same bits with 1, 2, 3 and 8 threads", "[golden]") {
         CHECK(same_bits(one, run(threads, 5, method)));
     }
     CHECK_FALSE(same_bits(one, run(1, 6, method)));
+}
+
+TEST_CASE("Phases of their own threads give the same bits as one after the other", "[golden]") {
+    const Result one = run(1, 5, Method::combined);
+    for (const int threads : {2, 5}) {
+        CHECK(same_bits(one, run(threads, 5, Method::combined, Scheduler::asynchronous)));
+    }
 }

@@ -1,0 +1,54 @@
+// However threads share the work, the means are the same (METHOD section 4, the trap).
+#include <catch2/catch.hpp>
+
+#include "optics/transport/simulate.h"
+#include "tests/support/check_mean.h"
+#include "tests/support/cornell_scenes.h"
+
+using namespace lucerna;
+using namespace lucerna::optics;
+
+namespace {
+
+Result run(Scheduler scheduler, int threads, std::uint64_t seed) {
+    const int pixels = 24;
+    const auto scene = test::cornell_caustic(pixels);
+    Settings settings;
+    settings.method = Method::combined;
+    settings.scheduler = scheduler;
+    settings.threads = threads;
+    settings.seed = seed;
+    settings.samples_per_pixel = 4;
+    settings.max_phases = 4;
+    // Few rays, so that those of other groups are many of those that a map takes.
+    settings.forward_rays = 3000;
+    return simulate(scene.parts, settings);
+}
+
+}  // namespace
+
+TEST_CASE("Schedulers agree in the mean at 1, 2, 4 and 8 threads", "[statistical]") {
+    const auto scheduler = GENERATE(Scheduler::synchronous, Scheduler::two_level);
+    const auto threads = GENERATE(1, 2, 4, 8);
+    INFO("scheduler " << static_cast<int>(scheduler) << " threads " << threads);
+    Estimate image, absorbed;  // ratios to the ordered scheduler with the same seed
+    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+        const Result truth = run(Scheduler::ordered, 1, seed);
+        const Result result = run(scheduler, threads, seed);
+        image.add(result.images[0].mean.value() / truth.images[0].mean.value());
+        const auto lost = [](const Result& r) {
+            return r.flux_balance_lm.escaped / r.flux_balance_lm.emitted;
+        };
+        absorbed.add(lost(result) / lost(truth));
+        CHECK(std::abs(result.flux_balance_lm.closure()) < 1e-6 * result.flux_balance_lm.emitted);
+    }
+    if (scheduler == Scheduler::synchronous) {  // the same rays, added in another order
+        CHECK(std::abs(image.mean() - 1.0) < 1e-5);
+        CHECK(image.standard_error() < 1e-5);
+        CHECK(std::abs(absorbed.mean() - 1.0) < 1e-9);
+        return;
+    }
+    test::check_mean(image.mean(), image.standard_error(), 1.0, {0.03});
+    test::check_mean(absorbed.mean(), absorbed.standard_error(), 1.0, {0.03});
+    CHECK_FALSE(test::agrees(image.mean(), image.standard_error(), 1.03));
+}

@@ -69,6 +69,10 @@ double kernel_area_m2(const Shape& shape, const SurfacePoint& p, double radius_m
                       shape);
 }
 
+bool unrolls(const Shape& shape, std::uint32_t patch) {
+    return round_side_radius_m(shape, patch).has_value();
+}
+
 bool within_kernel(const Shape& object_shape, const SurfacePoint& p, const SurfacePoint& q,
                    double radius_m) {
     if (p.object != q.object || p.patch != q.patch) return false;

@@ -1,7 +1,5 @@
 #include "optics/transport/backward_map.h"
 
-#include <tbb/spin_mutex.h>
-
 #include <algorithm>
 #include <bit>
 #include <mutex>
@@ -16,8 +14,8 @@ constexpr double cell_per_radius = 2.0;
 
 // Each lock is that of many backward photons, far apart in their order.
 struct BackwardMap::Locks {
-    std::array<tbb::spin_mutex, 1 << 12> all;
-    tbb::spin_mutex& operator[](std::uint32_t index) { return all[index % all.size()]; }
+    std::array<std::mutex, 1 << 12> all;
+    std::mutex& operator[](std::uint32_t index) { return all[index % all.size()]; }
 };
 
 BackwardMap::BackwardMap(const Phase& phase, const Radii& radii,

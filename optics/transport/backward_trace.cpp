@@ -11,6 +11,9 @@ constexpr std::uint8_t all_light =
 // A branch that carries less of its path goes on by choosing one event at random.
 constexpr double least_importance_to_branch = 0.02;
 
+// Rays of a bin that gather behind specular events, for each one that does so straight on.
+constexpr std::uint32_t specular_gathers_of_bin = 1;
+
 /// One backward ray on its way.
 class BackwardRay {
 public:
@@ -33,14 +36,19 @@ public:
         const std::uint32_t set =
             RandomStream(phase_.seed, phase_.number, RandomPurpose::strata, bin_).bits();
         const std::uint32_t gathers = gathers_of_bin(bins, observer);
+        rays_per_gather_ = samples / gathers;
+        const std::uint32_t specular_gathers = std::min(samples, specular_gathers_of_bin * gathers);
+        seen_.clear();
         for (std::uint32_t sample = 0; sample < samples; ++sample) {
             const auto path_number =
                 static_cast<std::uint32_t>(bins.first_path + bin * samples + sample);
             StratifiedStream random(
                 {phase_.seed, phase_.number, RandomPurpose::backward, path_number},
                 {set, sample, samples});
-            gather_weight_ =
-                sample < gathers ? static_cast<float>(samples) / static_cast<float>(gathers) : 0.0f;
+            specular_gather_weight_ =
+                sample < specular_gathers
+                    ? static_cast<float>(samples) / static_cast<float>(specular_gathers)
+                    : 0.0f;
             trace(bins, bin, sample, random);
         }
     }
@@ -240,19 +248,52 @@ private:
                                                   above ? encounter.media_beyond : path_.media,
                                                   random, tally_.shadow_segments));
         if (scatterings_ > 0) return;
-        if (gather_weight_ > 0.0f) {
-            gather(at, collection_.first_gather, gather_weight_ * path_.weight);
-        }
+        gather_where_seen(at);
         if (collection_.first_deposit) store(encounter, collection_.first_deposit);
     }
 
+    // What a ray of a bin finds on a patch stands for the next ones as well that come to the patch
+    // straight and with the same weight. Behind specular events the rays of a bin spread widely and
+    // their weights differ: there a share of them gathers, chosen beforehand.
+    void gather_where_seen(const GatherPoint& at) {
+        const std::uint8_t histories = collection_.first_gather;
+        if (specular_since_) {
+            if (specular_gather_weight_ > 0.0f) {
+                gather(at, histories, specular_gather_weight_ * path_.weight);
+            }
+            return;
+        }
+        if (rays_per_gather_ == 1) return gather(at, histories, path_.weight);
+        const std::uint32_t patch = kernel_patch(phase_.stage, at.point);
+        const bool above = at.wo.z() > 0.0;
+        auto seen = std::find_if(seen_.begin(), seen_.end(), [&](const Seen& s) {
+            return s.patch == patch && s.above == above && (s.weight == path_.weight).all();
+        });
+        if (seen == seen_.end()) {
+            seen_.push_back({patch, above, 0, path_.weight, {}});
+            seen = seen_.end() - 1;
+        }
+        if (seen->rays_left == 0) {
+            seen->rays_left = rays_per_gather_;
+            seen->gathered = gathered(at, histories);
+        }
+        --seen->rays_left;
+        add(seen->gathered, path_.weight);
+    }
+
     void gather(const GatherPoint& at, std::uint8_t histories, const Lanes& weight) {
+        add(gathered(at, histories), weight);
+    }
+
+    Gathered gathered(const GatherPoint& at, std::uint8_t histories) const {
+        Gathered sum;
         if (histories & mask(History::caustic)) {
-            add(maps_.caustic.gather(phase_, maps_.caustic_radii, at), weight);
+            sum += maps_.caustic.gather(phase_, maps_.caustic_radii, at);
         }
         if (histories & mask(History::indirect)) {
-            add(maps_.indirect.gather(phase_, maps_.indirect_radii, at), weight);
+            sum += maps_.indirect.gather(phase_, maps_.indirect_radii, at);
         }
+        return sum;
     }
 
     void add(const Gathered& gathered, const Lanes& weight) {
@@ -286,8 +327,17 @@ private:
         double importance;
     };
     std::vector<Branch> branches_;  // before the first scattering event, still to be followed
-    float gather_weight_ = 1.0f;    // of a ray among those of its bin; 0: it does not gather
-    double importance_ = 1.0;       // share of the path's weight that its branches left to it
+    struct Seen {
+        std::uint32_t patch;
+        bool above;
+        std::uint32_t rays_left;
+        Lanes weight;
+        Gathered gathered;
+    };
+    std::vector<Seen, Eigen::aligned_allocator<Seen>> seen_;  // by the rays of the bin
+    std::uint32_t rays_per_gather_ = 1;
+    float specular_gather_weight_ = 1.0f;  // 0: the ray does not gather behind specular events
+    double importance_ = 1.0;  // share of the path's weight that its branches left to it
     int scatterings_ = 0;
     bool specular_since_ = false;  // the last scattering event
     Vec3 scattered_from_ = Vec3::Zero();

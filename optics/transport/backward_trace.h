@@ -7,8 +7,9 @@
 
 namespace lucerna::optics {
 
-/// Number of rays of a bin that gather photons, for all of its rays: in a large image kernels are
-/// wider than pixels, and what the other rays of a pixel would find is nearly the same.
+/// Number of rays of a bin that gather photons where all of them see the same surface: in a large
+/// image kernels are wider than pixels, and what the other rays of a pixel would find is nearly the
+/// same.
 std::uint32_t gathers_of_bin(const ObserverBins& bins, const Observer& observer);
 
 /// Which estimator takes which light: every path of light must be counted exactly once.
@@ -43,8 +44,9 @@ struct BackwardTally {
     std::uint64_t segments = 0, shadow_segments = 0;
 };
 
-/// Traces the backward rays of a block of bins of an observer: adds visible emission, direct and gathered light to
-/// the readings and returns the backward photons. Unbiased but for the kernels of the maps.
+/// Traces the backward rays of a block of bins of an observer: adds visible emission, direct and
+/// gathered light to the readings and returns the backward photons. Unbiased but for the kernels of
+/// the maps.
 std::vector<BackwardPhoton> trace_backward(const Phase& phase, const Collections& collections,
                                            const ObserverBins& bins, const BinBlock& block,
                                            const SensorPlanes& planes, const ForwardMaps& maps,

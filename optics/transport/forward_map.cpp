@@ -66,6 +66,10 @@ Gathered ForwardMap::gather(const Phase& phase, const Radii& radii, const Gather
     const CellKey low = CellKey::at(patch, at.point.position - reach, cell_m);
     const CellKey high = CellKey::at(patch, at.point.position + reach, cell_m);
     const double square_m2 = square(radius_m);
+    const double inner_square_m2 = square(inner_m);
+    // Elsewhere the distance along the surface may be longer than the straight one.
+    const bool straight = at.point.object == no_object ||
+                          !unrolls(stage.parts().objects[at.point.object].shape, at.point.patch);
     // A diffuse surface scatters all light from a side alike.
     const bool diffuse = std::holds_alternative<Diffuse>(at.bsdf);
     const auto scattered = [&](const Vec3& wi) {
@@ -80,16 +84,18 @@ Gathered ForwardMap::gather(const Phase& phase, const Radii& radii, const Gather
                 const CellKey cell{patch, x, y, z};
                 for (const Place& place : grid_.bucket(cell.hash() & bucket_mask_)) {
                     if (place.cell != cell) continue;
-                    if ((at.point.position - place.position).squaredNorm() >= square_m2) continue;
+                    const double distance_m2 = (at.point.position - place.position).squaredNorm();
+                    if (distance_m2 >= square_m2) continue;
                     const Photon& photon = photons_[place.photon];
-                    if (!in_kernel(stage, at.point, photon.point, radius_m)) continue;
+                    if (!straight && !in_kernel(stage, at.point, photon.point, radius_m)) continue;
                     found = true;
                     const bool above = photon.direction.dot(photon.point.normal) < 0.0;
                     const Lanes light =
                         photon.flux * (diffuse ? (above ? from_above : from_below)
                                                : scattered(kernel_direction(at.frame, photon)));
                     sum.radiance += light;
-                    if (in_kernel(stage, at.point, photon.point, inner_m)) {
+                    if (distance_m2 < inner_square_m2 &&
+                        (straight || in_kernel(stage, at.point, photon.point, inner_m))) {
                         sum.radiance_inner += light;
                     }
                 }

@@ -47,6 +47,10 @@ struct Gathered {
     Lanes radiance = Lanes::Zero();        ///< at the full radius [W/(m2 sr nm)]
     Lanes radiance_inner = Lanes::Zero();  ///< at the inner radius
 
+    void operator+=(const Gathered& other) {
+        radiance += other.radiance;
+        radiance_inner += other.radiance_inner;
+    }
     /// Kernel bias of `radiance`, as both radii tell it.
     Lanes bias() const { return 2.0f * (radiance - radiance_inner); }
 };

@@ -168,10 +168,9 @@ private:
     void work(Group& group, bool owner) {
         for (std::size_t i; (i = group.next_block++) < group.blocks.size();) {
             const BinBlock& block = group.blocks[i];
-            group.stored[i] = trace_backward(phase_, plan_.collections,
-                                             setting_.readings.observers()[block.observer_bins],
-                                             block, setting_.planes, maps_, trace_.readings,
-                                             group.tallies[i]);
+            group.stored[i] = trace_backward(
+                phase_, plan_.collections, setting_.readings.observers()[block.observer_bins],
+                block, setting_.planes, maps_, trace_.readings, group.tallies[i]);
         }
         group.meeting.arrive_and_wait();
         if (owner) {

@@ -21,10 +21,9 @@ ForwardMap forward_map(const Phase& phase, const Setting& setting, History histo
                        RayCounts& counts) {
     const bool caustic = history == History::caustic;
     const Stopwatch watch;
-    const std::vector<Photon> photons =
-        trace_photons(phase, setting, caustic ? RandomPurpose::caustic : RandomPurpose::indirect,
-                      caustic ? Reach::first_scattering : Reach::whole_path, mask(history), rays,
-                      tally);
+    const std::vector<Photon> photons = trace_photons(
+        phase, setting, caustic ? RandomPurpose::caustic : RandomPurpose::indirect,
+        caustic ? Reach::first_scattering : Reach::whole_path, mask(history), rays, tally);
     counts.caustic_s += watch.seconds();
     counts.caustic_rays += rays;
     counts.forward_photons += photons.size();
@@ -71,8 +70,8 @@ void deposit(const Phase& phase, const Setting& setting, std::uint32_t rays, Bac
         const std::uint32_t count = std::min(blocks_per_chunk, blocks - chunk);
         std::vector<BackwardMap::Deposits> deposits(locked ? 0 : count);
         std::vector<ForwardTally> tallies(count, ForwardTally(setting.stage.parts()));
-        std::vector<std::uint64_t> hits(count), applied(std::max<std::size_t>(
-                                                    count, BackwardMap::parts));
+        std::vector<std::uint64_t> hits(count),
+            applied(std::max<std::size_t>(count, BackwardMap::parts));
         for_each_block(count, setting.threads, [&](std::size_t block) {
             const std::uint32_t first =
                 (chunk + static_cast<std::uint32_t>(block)) * forward_rays_per_block;
@@ -89,9 +88,8 @@ void deposit(const Phase& phase, const Setting& setting, std::uint32_t rays, Bac
             }
         });
         if (!locked) {
-            for_each_block(BackwardMap::parts, setting.threads, [&](std::size_t part) {
-                applied[part] = map.apply(part, deposits);
-            });
+            for_each_block(BackwardMap::parts, setting.threads,
+                           [&](std::size_t part) { applied[part] = map.apply(part, deposits); });
         }
         for (std::uint32_t block = 0; block < count; ++block) {
             trace.tally += tallies[block];

@@ -16,15 +16,17 @@ constexpr std::uint32_t min_forward_rays = 20000;
 // events that a kernel serves, so that few are enough (the same delta with 1 and with 1/4 in
 // diffuse rooms).
 constexpr std::uint64_t backward_per_secondary_ray = 16;
-constexpr std::uint64_t backward_per_caustic_ray = 4;
+constexpr std::uint64_t backward_per_caustic_ray = 2;
 // Expected photons in a kernel of the first phase: few where the kernel is hidden behind a
-// scattering event, more where it is seen.
+// scattering event, many where it is seen, unless its bias there is large. Sensors start with few,
+// and get more where the bias is shown to be small.
 constexpr double photons_per_hidden_kernel = 16.0;
-constexpr double photons_per_seen_kernel = 24.0;
+constexpr double photons_per_seen_kernel = 200.0;
+constexpr double photons_per_sensor_kernel = 24.0;
 // Where all indirect light is gathered at seen surfaces, it is mostly smooth: kernels are as wide
 // as their bias allows. For each ray that a gather stands for, this many photons in the kernel, on
-// average: then the maps have about the noise of the direct light, and gathering about its cost.
-constexpr double photons_per_ray_of_wide_kernel = 32.0;
+// average: with half as many or twice as many an error of 2 % is reached later in a diffuse room.
+constexpr double photons_per_ray_of_wide_kernel = 16.0;
 // Pilot phases are numbered from the end.
 constexpr std::uint32_t pilot_phase = std::numeric_limits<std::uint32_t>::max();
 
@@ -56,9 +58,9 @@ void choose_radii(const Setting& setting, const Settings& settings, Plan& plan) 
         mask(History::direct) | mask(History::caustic) | mask(History::indirect);
     const std::uint32_t rays = std::clamp(std::max(plan.caustic_rays, plan.secondary_rays),
                                           min_pilot_rays, max_pilot_rays);
-    const PilotPhotons photons{trace_photons(phase, setting, RandomPurpose::pilot,
-                                             Reach::whole_path, all, rays, unused),
-                               rays};
+    const PilotPhotons photons{
+        trace_photons(phase, setting, RandomPurpose::pilot, Reach::whole_path, all, rays, unused),
+        rays};
     const auto of = [&](History history) {
         PilotPhotons some{{}, rays};
         for (const Photon& photon : photons.photons) {
@@ -66,15 +68,17 @@ void choose_radii(const Setting& setting, const Settings& settings, Plan& plan) 
         }
         return some;
     };
-    plan.caustic_radii = narrow_radii(stage, setting.planes, of(History::caustic),
-                                      photons_per_seen_kernel, plan.caustic_rays, true);
-    plan.hidden_radii = narrow_radii(stage, setting.planes, photons, photons_per_hidden_kernel,
+    plan.caustic_radii =
+        narrow_radii(stage, setting.planes, of(History::caustic),
+                     {photons_per_seen_kernel, photons_per_sensor_kernel}, plan.caustic_rays, true);
+    plan.hidden_radii = narrow_radii(stage, setting.planes, photons,
+                                     {photons_per_hidden_kernel, photons_per_hidden_kernel},
                                      plan.secondary_rays, false);
     const PilotPhotons indirect = of(History::indirect);
     plan.indirect_radii = wide_radii(stage, setting.planes, indirect);
-    plan.indirect_rays = settings.forward_rays.value_or(std::clamp(
-        rays_for(stage, indirect, plan.indirect_radii, photons_per_wide_kernel(setting)),
-        min_forward_rays, at_least_min(setting.readings.samples_per_phase())));
+    plan.indirect_rays = settings.forward_rays.value_or(
+        std::clamp(rays_for(stage, indirect, plan.indirect_radii, photons_per_wide_kernel(setting)),
+                   min_forward_rays, at_least_min(setting.readings.samples_per_phase())));
 }
 
 // Blocks spread evenly over all images.

@@ -92,9 +92,9 @@ double radius_of_small_bias(const std::vector<Vec3>& photons, const std::vector<
     return radius_m;
 }
 
-// @param photons_per_kernel  of the pilot photons; what surfaces and sensors ask for comes on top.
+// @param photons  of the pilot trace in a kernel; what surfaces and sensors ask for comes on top.
 Radii radii_of(const Stage& stage, const SensorPlanes& planes, const PilotPhotons& pilot,
-               double photons_per_kernel, bool seen) {
+               const PhotonsPerKernel& photons, bool seen) {
     std::vector<std::vector<Vec3>> positions(stage.patch_count() + planes.count());
     for (const Photon& photon : pilot.photons) {
         positions[kernel_patch(stage, photon.point)].push_back(photon.point.position);
@@ -108,6 +108,7 @@ Radii radii_of(const Stage& stage, const SensorPlanes& planes, const PilotPhoton
             sensor ? planes.margin_m()
                    : std::min(scene_limit_m, std::sqrt(stage.patch_area_m2(patch)) / 8.0);
         double radius_m = limit_m;
+        const double photons_per_kernel = sensor ? photons.of_sensors : photons.of_surfaces;
         if (positions[patch].size() > 2 * neighbours && photons_per_kernel < infinity) {
             // n photons within d: density n / (pi d^2); wanted K = density * pi r^2.
             const double square_m2 = median_square_distance(positions[patch]);
@@ -141,12 +142,14 @@ Radii Radii::at_phase(std::uint32_t number) const {
 }
 
 Radii narrow_radii(const Stage& stage, const SensorPlanes& planes, const PilotPhotons& pilot,
-                   double photons_per_kernel, std::uint32_t rays, bool seen) {
-    return radii_of(stage, planes, pilot, photons_per_kernel * pilot.rays / rays, seen);
+                   const PhotonsPerKernel& photons, std::uint32_t rays, bool seen) {
+    const double share = static_cast<double>(pilot.rays) / rays;
+    return radii_of(stage, planes, pilot, {share * photons.of_surfaces, share * photons.of_sensors},
+                    seen);
 }
 
 Radii wide_radii(const Stage& stage, const SensorPlanes& planes, const PilotPhotons& pilot) {
-    return radii_of(stage, planes, pilot, infinity, true);
+    return radii_of(stage, planes, pilot, {infinity, infinity}, true);
 }
 
 std::uint32_t rays_for(const Stage& stage, const PilotPhotons& pilot, const Radii& radii,

@@ -32,7 +32,12 @@ struct PilotPhotons {
     std::uint32_t rays;
 };
 
-/// Radii at which a kernel holds about `photons_per_kernel` photons in a phase with `rays` rays.
+/// Expected photons in a kernel of a phase.
+struct PhotonsPerKernel {
+    double of_surfaces, of_sensors;
+};
+
+/// Radii at which a kernel holds about `photons` photons in a phase with `rays` rays.
 ///
 /// The density is the median of what the photons of a patch see around themselves: it follows the
 /// places where the light is, so that a caustic on a wide floor gets the radius of the caustic.
@@ -43,7 +48,7 @@ struct PilotPhotons {
 /// less than 1 % is left when that is taken off. Where kernels are `seen`, those of surfaces are
 /// narrowed until they show no more than 15 %.
 Radii narrow_radii(const Stage& stage, const SensorPlanes& planes, const PilotPhotons& pilot,
-                   double photons_per_kernel, std::uint32_t rays, bool seen);
+                   const PhotonsPerKernel& photons, std::uint32_t rays, bool seen);
 
 /// The same for seen surfaces whatever number of photons their kernels hold: as wide as the limits
 /// and the bias allow.

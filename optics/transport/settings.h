@@ -20,9 +20,9 @@ enum class Method {
 
 /// How the work of a phase is shared among threads (METHOD section 4).
 enum class Scheduler {
-    ordered,       ///< all threads on one phase; deposits are sorted by place before they are added,
-                   ///< so that no two threads write to the same: same bits for any threads
-    synchronous,   ///< all threads on one phase; deposits are added under locks, in any order
+    ordered,      ///< all threads on one phase; deposits are sorted by place before they are added,
+                  ///< so that no two threads write to the same: same bits for any threads
+    synchronous,  ///< all threads on one phase; deposits are added under locks, in any order
     asynchronous,  ///< each thread on a phase and maps of its own; the same bits as `ordered`, for
                    ///< as many times its memory as there are threads
     two_level      ///< groups of threads, each with the map of its part of the image
@@ -50,7 +50,7 @@ struct SensorTarget {
 struct Settings {
     Method method = Method::automatic;
     std::uint64_t seed = 1;
-    int threads = 0;                        ///< 0: all of the machine
+    int threads = 0;  ///< 0: all of the machine
     Scheduler scheduler = Scheduler::ordered;
     std::optional<double> image_accuracy;   ///< delta of METHOD eq. 6 to stop at, such as 0.02
     std::optional<double> sensor_accuracy;  ///< U / value of each sensor to stop at, such as 0.01

@@ -160,9 +160,9 @@ private:
     Readings readings_;
     Setting setting_;
     Plan plan_;
-    ForwardTally total_;                                   // over phases
-    std::uint64_t total_rays_ = 0;                         // of total_
-    std::vector<Estimate> received_;                       // per receiver: front, back
+    ForwardTally total_;              // over phases
+    std::uint64_t total_rays_ = 0;    // of total_
+    std::vector<Estimate> received_;  // per receiver: front, back
     std::vector<SensorTarget> receiver_targets_;
     RayCounts counts_;
     std::uint64_t forward_map_bytes_ = 0, backward_map_bytes_ = 0;

@@ -47,8 +47,20 @@ struct CompareOptions {
 };
 ExitCode compare(const CompareOptions& options);
 
-/// Measures how fast the rays of a scene are traced, over this many paths of each kind.
-ExitCode bench(const std::filesystem::path& scene, std::uint32_t paths);
+struct BenchOptions {
+    std::vector<std::filesystem::path> scenes;
+    std::optional<std::filesystem::path> output;  ///< JSON file
+    std::uint32_t paths = 100000;                 ///< of each kind, for the rates of the parts
+    int repetitions = 3;
+    std::optional<std::uint32_t> phases;  ///< of each run; default: 4, without limit with delta
+    std::optional<double> delta;          ///< noise of images to stop each run at, such as 0.05
+    std::optional<double> time_limit_s;   ///< of each run until delta; default: 60 s
+    std::vector<int> threads;             ///< of the runs; none: all of the machine
+    std::vector<optics::Method> methods;  ///< of the runs; none: that of the scene
+    std::vector<optics::Scheduler> schedulers;  ///< of the runs; none: that of the scene
+};
+/// Measures how fast the parts of the engine and whole runs of scenes are.
+ExitCode bench(const BenchOptions& options);
 
 struct ValidateOptions {
     std::vector<std::string> cases;  ///< ids, families or patterns; none: all

@@ -47,9 +47,9 @@ std::function<void(const std::string&)> quantity_into(std::optional<double>& val
 struct CommandLine {
     CLI::App app{"Lucerna: spectral simulation of light with accuracy bounds", "lucerna"};
     cli::RunOptions run;
-    std::filesystem::path scene_to_check, scene_to_time, photometric_file;
-    std::uint32_t paths_to_time = 100000;
+    std::filesystem::path scene_to_check, photometric_file;
     cli::CompareOptions compare;
+    cli::BenchOptions bench;
     CLI::App* run_command;
     CLI::App* check_command;
     CLI::App* compare_command;
@@ -107,10 +107,47 @@ struct CommandLine {
         compare_command->add_option("--mask", compare.mask,
                                     "Image whose pixels of value 0 do not count");
 
-        bench_command = app.add_subcommand("bench", "Say how fast the rays of a scene are traced");
-        bench_command->add_option("SCENE", scene_to_time, "Scene file (YAML)")->required();
-        bench_command->add_option("--paths", paths_to_time, "Paths of each kind [100000]")
+        bench_command = app.add_subcommand("bench", "Say how fast scenes are simulated, and why");
+        bench_command->add_option("SCENE", bench.scenes, "Scene files (YAML)")->required();
+        bench_command->add_option("-o,--output", bench.output, "JSON file of the numbers [none]");
+        bench_command
+            ->add_option("--paths", bench.paths, "Paths of each kind, for the rates [100000]")
             ->check(CLI::PositiveNumber);
+        bench_command
+            ->add_option("--repetitions", bench.repetitions, "Repetitions of all that is timed [3]")
+            ->check(CLI::PositiveNumber);
+        bench_command
+            ->add_option("--phases", bench.phases, "Phases of each run [4, with --delta no limit]")
+            ->check(CLI::PositiveNumber);
+        bench_command
+            ->add_option("--threads", bench.threads,
+                         "Numbers of threads to compare, such as 1,2,4 [all of the machine]")
+            ->delimiter(',')
+            ->allow_extra_args(false)
+            ->check(CLI::PositiveNumber);
+        bench_command
+            ->add_option("--method", bench.methods,
+                         "Estimators to compare, such as combined,forward [those of the scene]")
+            ->delimiter(',')
+            ->allow_extra_args(false)
+            ->transform(CLI::CheckedTransformer(methods));
+        bench_command
+            ->add_option("--scheduler", bench.schedulers,
+                         "Ways of sharing the work among threads to compare [ordered]")
+            ->delimiter(',')
+            ->allow_extra_args(false)
+            ->transform(CLI::CheckedTransformer(schedulers));
+        CLI::Option* delta =
+            bench_command
+                ->add_option_function("--delta", quantity_into(bench.delta, io::dimension::percent),
+                                      "Stop each run at this noise of images, such as 5%")
+                ->type_name("PERCENT");
+        bench_command
+            ->add_option_function("--time-limit",
+                                  quantity_into(bench.time_limit_s, io::dimension::time),
+                                  "Wall time to stop each run at before that [60s]")
+            ->type_name("TIME")
+            ->needs(delta);
 
         validate_command = app.add_subcommand(
             "validate", "Compare the engine with truths that were derived without it");
@@ -147,7 +184,7 @@ struct CommandLine {
         if (*run_command) return cli::run(run);
         if (*check_command) return cli::check(scene_to_check);
         if (*compare_command) return cli::compare(compare);
-        if (*bench_command) return cli::bench(scene_to_time, paths_to_time);
+        if (*bench_command) return cli::bench(bench);
         if (*validate_command) return cli::validate(validate);
         if (*photometry_command) return cli::photometry(photometric_file);
         fmt::print(stderr, "{}", app.help());

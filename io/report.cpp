@@ -38,36 +38,6 @@ private:
     std::vector<std::string> not_finite_;
 };
 
-std::string scheduler_name(optics::Scheduler scheduler) {
-    switch (scheduler) {
-        case optics::Scheduler::ordered:
-            return "ordered";
-        case optics::Scheduler::synchronous:
-            return "synchronous";
-        case optics::Scheduler::asynchronous:
-            return "asynchronous";
-        case optics::Scheduler::two_level:
-            return "two-level";
-    }
-    throw std::logic_error("unknown scheduler");
-}
-
-std::string method_name(optics::Method method) {
-    switch (method) {
-        case optics::Method::automatic:
-            return "automatic";
-        case optics::Method::combined:
-            return "combined";
-        case optics::Method::forward:
-            return "forward";
-        case optics::Method::backward:
-            return "backward";
-        case optics::Method::path:
-            return "path";
-    }
-    throw std::logic_error("unknown method");
-}
-
 // The parts of an uncertain number, as keys of a JSON object.
 void add_uncertain(Json& json, const Uncertain& result, const std::string& name, Numbers& number) {
     json["value"] = number(result.value, name + " value");
@@ -151,13 +121,46 @@ Json rays_json(const optics::RayCounts& rays, Numbers& number) {
             {"backward_photons", rays.backward_photons},
             {"scattering_hits", rays.scattering_hits},
             {"deposits", rays.deposits},
-            {"backward_s", number(rays.backward_s, "rays backward_s")},
+            {"setup_s", number(rays.setup_s, "rays setup_s")},
+            {"pilot_s", number(rays.pilot_s, "rays pilot_s")},
             {"caustic_s", number(rays.caustic_s, "rays caustic_s")},
+            {"maps_s", number(rays.maps_s, "rays maps_s")},
+            {"backward_s", number(rays.backward_s, "rays backward_s")},
             {"secondary_s", number(rays.secondary_s, "rays secondary_s")},
-            {"maps_s", number(rays.maps_s, "rays maps_s")}};
+            {"readings_s", number(rays.readings_s, "rays readings_s")}};
 }
 
 }  // namespace
+
+std::string scheduler_name(optics::Scheduler scheduler) {
+    switch (scheduler) {
+        case optics::Scheduler::ordered:
+            return "ordered";
+        case optics::Scheduler::synchronous:
+            return "synchronous";
+        case optics::Scheduler::asynchronous:
+            return "asynchronous";
+        case optics::Scheduler::two_level:
+            return "two-level";
+    }
+    throw std::logic_error("unknown scheduler");
+}
+
+std::string method_name(optics::Method method) {
+    switch (method) {
+        case optics::Method::automatic:
+            return "automatic";
+        case optics::Method::combined:
+            return "combined";
+        case optics::Method::forward:
+            return "forward";
+        case optics::Method::backward:
+            return "backward";
+        case optics::Method::path:
+            return "path";
+    }
+    throw std::logic_error("unknown method");
+}
 
 std::string report_json(const optics::Result& result, const ReportSource& source) {
     Numbers number;

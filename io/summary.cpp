@@ -5,35 +5,10 @@
 
 #include "io/measured_value.h"
 #include "io/report.h"
+#include "io/text_table.h"
 
 namespace lucerna::io {
 namespace {
-
-// A table with a left-aligned first column and right-aligned others.
-std::string table(const std::vector<std::vector<std::string>>& rows) {
-    std::vector<std::size_t> widths;
-    const auto width_of = [](const std::string& text) {  // of UTF-8 in characters
-        return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
-            return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
-        }));
-    };
-    for (const auto& row : rows) {
-        widths.resize(std::max(widths.size(), row.size()));
-        for (std::size_t i = 0; i < row.size(); ++i)
-            widths[i] = std::max(widths[i], width_of(row[i]));
-    }
-    std::string text;
-    for (const auto& row : rows) {
-        std::string line = "  ";
-        for (std::size_t i = 0; i < row.size(); ++i) {
-            const std::string padding(widths[i] - width_of(row[i]), ' ');
-            line += i == 0 ? row[i] + padding : "  " + padding + row[i];
-        }
-        line.erase(line.find_last_not_of(' ') + 1);
-        text += line + "\n";
-    }
-    return text;
-}
 
 std::string images_text(const optics::Result& result) {
     std::string text;
@@ -72,7 +47,8 @@ std::string quantities_text(const optics::Result& result) {
              colour_text(quantity)});
     }
     std::string text =
-        fmt::format("\nQuantities, value ± U ({:.0f} %)\n", 100.0 * report_coverage) + table(rows);
+        fmt::format("\nQuantities, value ± U ({:.0f} %)\n", 100.0 * report_coverage) +
+        text_table(rows);
     if (result.quantities.size() > shown) {
         text += fmt::format("  and {} more in the report\n", result.quantities.size() - shown);
     }
@@ -83,7 +59,7 @@ std::string quantities_text(const optics::Result& result) {
                         measured_value(value.value, value.expanded_uncertainty(report_coverage)) +
                             (derived.unit == "1" ? "" : " " + derived.unit)});
     }
-    if (!rows.empty()) text += "\n" + table(rows);
+    if (!rows.empty()) text += "\n" + text_table(rows);
     return text;
 }
 
@@ -106,7 +82,7 @@ std::string flux_text(const optics::FluxBalance& flux) {
     const double closure_lm = flux.closure();
     if (std::abs(closure_lm) > 1e-6 * flux.emitted) add("not accounted for", closure_lm);
     add("emitted", flux.emitted);
-    return "\nFlux balance of the forward rays\n" + table(rows);
+    return "\nFlux balance of the forward rays\n" + text_table(rows);
 }
 
 std::string work_text(const optics::Result& result) {

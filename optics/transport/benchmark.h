@@ -1,26 +1,57 @@
-// How fast rays are traced, against the bare ray caster on the same rays.
+// How fast the parts of the engine work, each measured by itself.
 #pragma once
+
+#include <cstdint>
+#include <vector>
 
 #include "optics/scene.h"
 #include "optics/transport/settings.h"
 
 namespace lucerna::optics {
 
-/// Single-thread rates of one kind of trace; the best of several interleaved repetitions.
-struct TraceRate {
-    std::uint64_t rays = 0;     ///< segments and shadow rays of a repetition
-    double traced_per_s = 0.0;  ///< with all shading
-    double raw_per_s = 0.0;     ///< nearest hit of the same rays, nothing else
-    double fraction() const { return raw_per_s > 0.0 ? traced_per_s / raw_per_s : 0.0; }
+/// What a part works through per second; the best of several repetitions.
+struct Rate {
+    std::uint64_t items = 0;    ///< of a repetition
+    std::vector<double> per_s;  ///< per number of threads; empty without items
 };
 
+/// The rays of a trace: segments and shadow rays.
 struct TraceRates {
-    TraceRate forward;   ///< whole paths from the lights, without deposits
-    TraceRate backward;  ///< from the observers to the second scattering event, no map attached
+    Rate bare;    ///< nearest hit, nothing else
+    Rate traced;  ///< with all shading
+    /// Share of the bare rate that is left with the i-th number of threads.
+    double fraction(std::size_t i) const { return traced.per_s[i] / bare.per_s[i]; }
 };
 
-/// Traces at most `max_paths` paths of the first phase of each kind.
-TraceRates measure_trace_rates(const SceneParts& parts, const Settings& settings,
-                               std::uint32_t max_paths);
+struct ForwardMapRates {
+    Rate build;   ///< photons
+    Rate gather;  ///< points on seen surfaces
+};
+
+struct BackwardMapRates {
+    Rate build;    ///< vertices of backward rays
+    Rate find;     ///< photons of forward rays looked up
+    Rate deposit;  ///< pairs of vertex and photon applied
+};
+
+struct Rates {
+    std::vector<int> threads;
+    TraceRates forward;   ///< whole paths from the lights, without deposits
+    TraceRates backward;  ///< from the observers to the second scattering event, no map attached
+    BackwardMapRates backward_map;
+    ForwardMapRates caustic_map, indirect_map;
+};
+
+struct RateEffort {
+    std::uint32_t paths = 100000;  ///< at most, of each kind of trace, and of gathers
+    std::vector<int> threads{1};
+    int repetitions = 5;
+};
+
+/// Measures rays of the first phase, and its maps with their radii and numbers of rays. All maps
+/// are measured that the scene has light for, whichever its method uses. What is compared takes
+/// turns, so that all of it meets the same disturbances of the machine. Throws InputError if a part
+/// of the scene is inconsistent.
+Rates measure_rates(const SceneParts& parts, const Settings& settings, const RateEffort& effort);
 
 }  // namespace lucerna::optics

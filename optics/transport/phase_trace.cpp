@@ -182,13 +182,15 @@ void trace_phase(const Phase& phase, const Setting& setting, const Plan& plan,
     trace.backward_map_bytes = map.bytes();
     const Stopwatch watch;
     deposit(phase, setting, plan.secondary_rays, map, trace);
+    trace.counts.secondary_s += watch.seconds();
+    const Stopwatch read_watch;
     for_each_block(blocks.size(), setting.threads, [&](std::size_t i) {
         map.read(i, plan.secondary_rays,
                  [&](std::uint32_t bin, const Lanes& radiance, const Lanes& bias) {
                      trace.readings.add(phase, bin, radiance, bias);
                  });
     });
-    trace.counts.secondary_s += watch.seconds();
+    trace.counts.readings_s += read_watch.seconds();
 }
 
 }  // namespace lucerna::optics

@@ -83,7 +83,14 @@ struct RayCounts {
     std::uint64_t backward_photons = 0;  ///< stored in backward maps
     std::uint64_t scattering_hits = 0;   ///< hits of secondary rays on scattering surfaces
     std::uint64_t deposits = 0;
-    double backward_s = 0.0, caustic_s = 0.0, secondary_s = 0.0, maps_s = 0.0;  ///< wall time
+    // Wall time by stage; of phases that are traced at the same time the sum.
+    double setup_s = 0.0;      ///< scene made ready for tracing, memory for the readings
+    double pilot_s = 0.0;      ///< radii, numbers of rays and collection chosen by pilot phases
+    double caustic_s = 0.0;    ///< forward traces for the forward maps, caustic and indirect
+    double maps_s = 0.0;       ///< maps built
+    double backward_s = 0.0;   ///< backward trace with its gathers
+    double secondary_s = 0.0;  ///< secondary forward trace with its deposits
+    double readings_s = 0.0;   ///< backward map read, phase folded into the estimates
 
     void operator+=(const RayCounts& other);
 };

@@ -23,12 +23,15 @@ public:
           planes_(stage_.parts(), stage_.caster(), stage_.caster().scene_radius_m() / 6.0),
           readings_(parts, settings),
           setting_{stage_, planes_, readings_, settings.scheduler, threads_},
+          setup_s_(construction_watch_.seconds()),
           plan_(make_plan(setting_, settings)),
           total_(stage_.parts()),
           received_(2 * parts.receivers.size()) {
         for (const FluxReceiver& receiver : parts.receivers) {
             receiver_targets_.push_back(settings.target_of(receiver.name));
         }
+        counts_.setup_s = setup_s_;
+        counts_.pilot_s = construction_watch_.seconds() - setup_s_;
     }
 
     /// Phases that are traced at the same time.
@@ -44,7 +47,9 @@ public:
 
     /// Adds a phase to the estimates and empties its trace.
     void fold(const Phase& phase, PhaseTrace& trace) {
+        const Stopwatch watch;
         readings_.fold(phase, trace.readings, threads_ / lanes_);
+        counts_.readings_s += watch.seconds();
         fold_tally(trace);
         counts_ += trace.counts;
         trace.counts = {};
@@ -153,12 +158,14 @@ private:
         }
     }
 
+    Stopwatch construction_watch_;
     Settings settings_;
     Stage stage_;
     int threads_, lanes_;
     SensorPlanes planes_;
     Readings readings_;
     Setting setting_;
+    double setup_s_;
     Plan plan_;
     ForwardTally total_;              // over phases
     std::uint64_t total_rays_ = 0;    // of total_
@@ -191,10 +198,13 @@ void RayCounts::operator+=(const RayCounts& other) {
     backward_photons += other.backward_photons;
     scattering_hits += other.scattering_hits;
     deposits += other.deposits;
-    backward_s += other.backward_s;
+    setup_s += other.setup_s;
+    pilot_s += other.pilot_s;
     caustic_s += other.caustic_s;
-    secondary_s += other.secondary_s;
     maps_s += other.maps_s;
+    backward_s += other.backward_s;
+    secondary_s += other.secondary_s;
+    readings_s += other.readings_s;
 }
 
 double FluxBalance::closure() const {

@@ -34,7 +34,7 @@ libraries=(
     "Imath io/exr.cpp"
     "OpenColorIO/ io/display_encoding.cpp"
     "png.h io/raster.cpp"
-    "nlohmann/ @(io/report|validation/report_json).cpp"
+    "nlohmann/ @(io/report|io/benchmark_json|validation/report_json).cpp"
     "pugixml io/bsdf_xml.cpp"
     "yaml-cpp/ io/yaml_tree.*"
     "CLI/ cli/main.cpp"

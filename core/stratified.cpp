@@ -1,5 +1,7 @@
 #include "core/stratified.h"
 
+#include <bit>
+
 namespace lucerna {
 namespace {
 
@@ -7,8 +9,7 @@ namespace {
 constexpr std::uint32_t stratified_pairs = 12;
 
 std::uint32_t reversed_bits(std::uint32_t x) {
-    x = (x >> 16) | (x << 16);
-    x = ((x & 0xff00ff00u) >> 8) | ((x & 0x00ff00ffu) << 8);
+    x = __builtin_bswap32(x);
     x = ((x & 0xf0f0f0f0u) >> 4) | ((x & 0x0f0f0f0fu) << 4);
     x = ((x & 0xccccccccu) >> 2) | ((x & 0x33333333u) << 2);
     return ((x & 0xaaaaaaaau) >> 1) | ((x & 0x55555555u) << 1);
@@ -25,9 +26,9 @@ std::uint32_t hashed(std::uint32_t x) {
 
 // Owen's nested scrambling of the digits of x, most significant first; each digit is flipped or not
 // by a hash of those before it (Burley, "Practical hash-based Owen scrambling", JCGT 9(4), 2020,
-// sec. 3.2; the constants are those of its listing 1).
+// sec. 3.2; the constants are those of its listing 1). The digits of `x` are given in reverse
+// order.
 std::uint32_t scrambled(std::uint32_t x, std::uint32_t key) {
-    x = reversed_bits(x);
     x += key;
     for (const std::uint32_t factor : {0x6c50b47cu, 0xb82f1e52u, 0xc7afe638u, 0x8d22f6e6u}) {
         x ^= x * factor;
@@ -35,11 +36,12 @@ std::uint32_t scrambled(std::uint32_t x, std::uint32_t key) {
     return reversed_bits(x);
 }
 
-// Second dimension of Sobol's sequence: the columns of Pascal's triangle modulo 2.
+// Second dimension of Sobol's sequence, its digits in reverse order: the columns of Pascal's
+// triangle modulo 2.
 std::uint32_t second_dimension(std::uint32_t index) {
     std::uint32_t result = 0;
-    for (std::uint32_t column = 1u << 31; index != 0; index >>= 1, column ^= column >> 1) {
-        if (index & 1u) result ^= column;
+    for (std::uint32_t column = 1; index != 0; index >>= 1, column ^= column << 1) {
+        result ^= index & 1u ? column : 0u;
     }
     return result;
 }
@@ -54,10 +56,11 @@ std::array<double, 2> StratifiedStream::pair() {
     const std::uint32_t key = hashed(stratum_.set + hashed(pairs_++));
     // The order is scrambled as well, so that pairs of different dimensions are independent. Of the
     // whole sequence only the start is used: aligned parts of it are alike.
-    std::uint32_t length = 1;
-    while (length < stratum_.count) length *= 2;
-    const std::uint32_t index = scrambled(stratum_.index, hashed(key ^ 1u)) & (length - 1);
-    return {scrambled(reversed_bits(index), hashed(key ^ 2u)) * 0x1p-32,
+    const std::uint32_t length = std::bit_ceil(stratum_.count);
+    const std::uint32_t index =
+        scrambled(reversed_bits(stratum_.index), hashed(key ^ 1u)) & (length - 1);
+    // The first dimension of the sequence is the index with its digits in reverse order.
+    return {scrambled(index, hashed(key ^ 2u)) * 0x1p-32,
             scrambled(second_dimension(index), hashed(key ^ 3u)) * 0x1p-32};
 }
 

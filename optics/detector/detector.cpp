@@ -2,15 +2,19 @@
 
 namespace lucerna::optics {
 
-Ray Camera::ray(double x, double y) const {
-    const Vec3 forward = (to - from).normalized();
-    const Vec3 right = forward.cross(up).normalized();
-    const Vec3 upward = right.cross(forward);
-    // Half the width of the image plane at distance 1; pixels are square.
-    const double half_width = std::tan(horizontal_fov_rad / 2.0);
-    const double across = (2.0 * x / width - 1.0) * half_width;
-    const double along = (1.0 - 2.0 * y / height) * half_width * height / width;
-    return {from, (forward + across * right + along * upward).normalized()};
+CameraRays::CameraRays(const Camera& camera)
+    : origin_(camera.from),
+      forward_((camera.to - camera.from).normalized()),
+      right_(forward_.cross(camera.up).normalized()),
+      upward_(right_.cross(forward_)),
+      half_width_(std::tan(camera.horizontal_fov_rad / 2.0)),
+      width_(camera.width),
+      height_(camera.height) {}
+
+Ray CameraRays::through(double x, double y) const {
+    const double across = (2.0 * x / width_ - 1.0) * half_width_;
+    const double along = (1.0 - 2.0 * y / height_) * half_width_ * height_ / width_;
+    return {origin_, (forward_ + across * right_ + along * upward_).normalized()};
 }
 
 }  // namespace lucerna::optics

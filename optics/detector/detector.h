@@ -16,9 +16,20 @@ struct Camera {
     Vec3 from, to, up;
     double horizontal_fov_rad;
     int width, height;
+};
 
-    /// Ray through a point of the image plane; x right from 0 to width, y down from 0 to height.
-    Ray ray(double x, double y) const;
+/// The rays of a camera, with what they share computed once.
+class CameraRays {
+public:
+    explicit CameraRays(const Camera& camera);
+
+    /// Through a point of the image plane; x right from 0 to width, y down from 0 to height.
+    Ray through(double x, double y) const;
+
+private:
+    Vec3 origin_, forward_, right_, upward_;
+    double half_width_;  // of the image plane at distance 1; pixels are square
+    int width_, height_;
 };
 
 /// Illuminance at points [lx]: E = integral of L cos over the hemisphere around the normal.

@@ -8,24 +8,30 @@ namespace lucerna::optics {
 
 namespace {
 
-using Corners = std::array<Vec3, 3>;
+/// The corners of a triangle, where the mesh keeps them.
+class Corners {
+public:
+    Corners(const Mesh& mesh, std::uint32_t triangle)
+        : vertices_(mesh.vertices.data()), triangle_(mesh.triangles[triangle]) {}
 
-Corners corners_of(const Mesh& mesh, std::uint32_t triangle) {
-    const auto& [a, b, c] = mesh.triangles[triangle];
-    return {mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]};
-}
+    const Vec3& operator[](std::size_t k) const { return vertices_[triangle_[k]]; }
+    /// From corner k to the next.
+    Vec3 edge(std::size_t k) const { return (*this)[(k + 1) % 3] - (*this)[k]; }
+
+private:
+    const Vec3* vertices_;
+    const std::array<std::uint32_t, 3>& triangle_;
+};
 
 Vec3 nearest_on_segment(const Vec3& a, const Vec3& b, const Vec3& p) {
     const Vec3 edge = b - a;
     return a + std::clamp((p - a).dot(edge) / edge.squaredNorm(), 0.0, 1.0) * edge;
 }
 
-/// Signed distance of p from the line through edge k, positive inside; p lies in the plane.
-double distance_from_edge(const Corners& corners, const Vec3& normal, std::size_t k,
-                          const Vec3& p) {
-    const Vec3& a = corners[k];
-    const Vec3 edge = corners[(k + 1) % 3] - a;
-    return normal.cross(edge).dot(p - a) / edge.norm();
+/// Signed distance of p from the line along an edge from a corner, times the edge's length;
+/// positive inside. p lies in the plane.
+double moment_about_edge(const Vec3& normal, const Vec3& corner, const Vec3& edge, const Vec3& p) {
+    return normal.cross(edge).dot(p - corner);
 }
 
 /// The point of the triangle nearest to p, which lies in its plane.
@@ -33,7 +39,7 @@ Vec3 nearest_in_triangle(const Corners& corners, const Vec3& normal, const Vec3&
     Vec3 nearest = p;
     double nearest_squared = infinity;
     for (std::size_t k = 0; k < 3; ++k) {
-        if (distance_from_edge(corners, normal, k, p) >= 0.0) continue;
+        if (moment_about_edge(normal, corners[k], corners.edge(k), p) >= 0.0) continue;
         const Vec3 q = nearest_on_segment(corners[k], corners[(k + 1) % 3], p);
         if ((q - p).squaredNorm() < nearest_squared) {
             nearest = q;
@@ -51,17 +57,24 @@ bool can_hit_from(const Mesh& mesh, std::uint32_t start, std::uint32_t triangle,
     if (away * direction.dot(mesh.normals[triangle]) >= 0.0) return false;
     const Vec3 outward = std::copysign(1.0, away) * mesh.normals[start];
     const Vec3& foot = mesh.vertices[mesh.triangles[start][0]];
-    for (const Vec3& corner : corners_of(mesh, triangle)) {
-        const Vec3 step = corner - foot;
+    for (const std::uint32_t corner : mesh.triangles[triangle]) {
+        const Vec3 step = mesh.vertices[corner] - foot;
         if (outward.dot(step) > 1e-9 * step.norm()) return true;
     }
     return false;
 }
 
 bool near_edge(const Mesh& mesh, std::uint32_t triangle, const Vec3& p, double distance_m) {
-    const Corners corners = corners_of(mesh, triangle);
-    for (std::size_t k = 0; k < 3; ++k)
-        if (distance_from_edge(corners, mesh.normals[triangle], k, p) < distance_m) return true;
+    const Corners corners(mesh, triangle);
+    const double clearly_squared = 1.000001 * distance_m * distance_m;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3 edge = corners.edge(k);
+        const double moment = moment_about_edge(mesh.normals[triangle], corners[k], edge, p);
+        // Nearly all points are clearly farther away, which shows without a root and a quotient.
+        const double edge_squared = edge.squaredNorm();
+        if (moment > 0.0 && moment * moment > clearly_squared * edge_squared) continue;
+        if (moment / std::sqrt(edge_squared) < distance_m) return true;
+    }
     return false;
 }
 
@@ -71,7 +84,7 @@ std::optional<TriangleHit> nearest_neighbour_hit(const Mesh& mesh, std::uint32_t
     mesh.search->for_each_neighbour(mesh, start, [&](std::uint32_t triangle) {
         if (!can_hit_from(mesh, start, triangle, ray.direction)) return;
         const Vec3& normal = mesh.normals[triangle];
-        const Corners corners = corners_of(mesh, triangle);
+        const Corners corners(mesh, triangle);
         // Rounding of the position, in units of the coordinates that enter it.
         const double size =
             ray.origin.cwiseAbs().maxCoeff() + (corners[1] - corners[0]).cwiseAbs().maxCoeff();
@@ -92,7 +105,7 @@ std::optional<TriangleHit> nearest_neighbour_hit(const Mesh& mesh, std::uint32_t
 }
 
 Vec3 refine_hit(const Mesh& mesh, std::uint32_t triangle, const Ray& ray, double& distance_m) {
-    const Corners corners = corners_of(mesh, triangle);
+    const Corners corners(mesh, triangle);
     const Vec3& normal = mesh.normals[triangle];
     const double slope = ray.direction.dot(normal);
     double t = (corners[0] - ray.origin).dot(normal) / slope;

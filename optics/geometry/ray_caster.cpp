@@ -35,7 +35,8 @@ RayCaster::Impl::Query RayCaster::Impl::new_query(const Ray& ray, const SurfaceP
     return query;
 }
 
-RTCRay RayCaster::Impl::embree_ray(Query& query, const Vec3& origin, double max_distance_m) const {
+void RayCaster::Impl::aim(RTCRay& ray, Query& query, const Vec3& origin,
+                          double max_distance_m) const {
     const Vec3& direction = query.ray->direction;
     Vec3 from = origin - centre;
     // From far away, start just before the scene: a distant origin would cost all digits.
@@ -44,7 +45,6 @@ RTCRay RayCaster::Impl::embree_ray(Query& query, const Vec3& origin, double max_
         query.skipped_m = to_centre_m - 2.0 * radius_m;
         from += query.skipped_m * direction;
     }
-    RTCRay ray;
     ray.org_x = static_cast<float>(from.x());
     ray.org_y = static_cast<float>(from.y());
     ray.org_z = static_cast<float>(from.z());
@@ -57,7 +57,6 @@ RTCRay RayCaster::Impl::embree_ray(Query& query, const Vec3& origin, double max_
     ray.mask = ~0u;
     ray.id = 0;
     ray.flags = 0;
-    return ray;
 }
 
 const MeshInstance* RayCaster::Impl::mesh_of(const SurfacePoint* p) const {
@@ -76,11 +75,10 @@ Vec3 RayCaster::Impl::off_surface(const MeshInstance& s, const SurfacePoint& p,
 std::optional<TriangleHit> RayCaster::Impl::neighbour_hit(const MeshInstance& s,
                                                           const SurfacePoint& p,
                                                           const Ray& ray) const {
-    const Ray local = to_local(s, ray);
     // Wide enough that off_surface() stays in a corner of more than 1 degree if it is not near.
     const double near_m = 64.0 * offset_m[p.object];
-    if (!near_edge(*s.mesh, p.primitive, local.origin, near_m)) return std::nullopt;
-    return nearest_neighbour_hit(*s.mesh, p.primitive, local);
+    if (!near_edge(*s.mesh, p.primitive, to_local(s, ray.origin), near_m)) return std::nullopt;
+    return nearest_neighbour_hit(*s.mesh, p.primitive, to_local(s, ray));
 }
 
 Hit RayCaster::Impl::mesh_hit(ObjectId object, std::uint32_t triangle, const Ray& ray,
@@ -111,7 +109,7 @@ std::optional<Hit> RayCaster::Impl::embree_hit(const Ray& ray, const SurfacePoin
         }
     }
     RTCRayHit rayhit;
-    rayhit.ray = embree_ray(query, origin, max_distance_m);
+    aim(rayhit.ray, query, origin, max_distance_m);
     rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rayhit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     query.exact_hit.distance_m = max_distance_m;
@@ -122,16 +120,17 @@ std::optional<Hit> RayCaster::Impl::embree_hit(const Ray& ray, const SurfacePoin
     const bool instanced = found.instID[0] != RTC_INVALID_GEOMETRY_ID;
     if (!instanced && found.geomID == exact_geometry) {
         const ShapeHit& hit = query.exact_hit;
-        return Hit{{.position = hit.position,
-                    .normal = hit.normal,
-                    .object = exact[found.primID],
-                    .patch = hit.patch,
-                    .primitive = hit.primitive},
-                   hit.distance_m};
+        nearest = Hit{{.position = hit.position,
+                       .normal = hit.normal,
+                       .object = exact[found.primID],
+                       .patch = hit.patch,
+                       .primitive = hit.primitive},
+                      hit.distance_m};
+        return nearest;
     }
     const Hit hit = mesh_hit(instanced ? found.instID[0] : found.geomID, found.primID, ray,
                              static_cast<double>(rayhit.ray.tfar) + query.skipped_m);
-    if (hit.distance_m < max_distance_m) return hit;
+    if (hit.distance_m < max_distance_m) nearest = hit;
     return nearest;
 }
 
@@ -143,29 +142,26 @@ const Eigen::AlignedBox3d& RayCaster::Impl::bounds_of(ObjectId closed_mesh) cons
 
 /// Single precision misses a triangle now and then where many meet in a corner. A ray that should
 /// have left a closed mesh by the time it leaves its bounds is tried again in double precision.
-std::optional<Hit> RayCaster::Impl::slipped_through(const Ray& ray, const SurfacePoint* start,
-                                                    const std::optional<Hit>& found,
-                                                    double max_distance_m) const {
-    std::optional<Hit> nearest;
-    const auto try_again = [&](ObjectId object, const Eigen::AlignedBox3d& box) {
-        const double leave_m = leaves(box, ray);
-        if (leave_m > max_distance_m || (found && found->distance_m <= leave_m)) return;
+void RayCaster::Impl::catch_slipped(const Ray& ray, const SurfacePoint* start,
+                                    double max_distance_m, std::optional<Hit>& hit) const {
+    const auto try_again = [&](ObjectId object) {
         const SurfacePoint* own_start = start && start->object == object ? start : nullptr;
-        const auto hit = optics::intersect(shapes[object], ray, own_start, max_distance_m);
-        if (!hit) return;
-        max_distance_m = hit->distance_m;
-        nearest = mesh_hit(object, hit->primitive, ray, hit->distance_m);
+        const auto missed = optics::intersect(shapes[object], ray, own_start, max_distance_m);
+        if (!missed) return;
+        max_distance_m = missed->distance_m;
+        hit = mesh_hit(object, missed->primitive, ray, missed->distance_m);
     };
-    if (found) {  // then only the mesh into which the ray started is known to be left
+    if (hit) {  // then only the mesh into which the ray started is known to be left
         const MeshInstance* s = mesh_of(start);
-        if (!s || !s->mesh->closed || found->point.object == start->object) return nearest;
+        if (!s || !s->mesh->closed || hit->point.object == start->object) return;
         const Vec3 normal = s->placement.linear() * s->mesh->normals[start->primitive];
-        if (ray.direction.dot(normal) < 0.0) try_again(start->object, bounds_of(start->object));
+        if (!(ray.direction.dot(normal) < 0.0)) return;
+        const double leave_m = leaves(bounds_of(start->object), ray);
+        if (leave_m <= max_distance_m && hit->distance_m > leave_m) try_again(start->object);
     } else {
         for (const auto& [object, box] : closed_meshes)
-            if (box.contains(ray.origin)) try_again(object, box);
+            if (box.contains(ray.origin) && leaves(box, ray) <= max_distance_m) try_again(object);
     }
-    return nearest;
 }
 
 RayCaster::RayCaster(std::span<const Shape> shapes) : impl_(std::make_unique<Impl>(shapes)) {}
@@ -175,10 +171,11 @@ RayCaster& RayCaster::operator=(RayCaster&&) noexcept = default;
 
 std::optional<Hit> RayCaster::intersect(const Ray& ray, const SurfacePoint* start,
                                         double max_distance_m) const {
-    const std::optional<Hit> hit = impl_->embree_hit(ray, start, max_distance_m);
-    if (impl_->closed_meshes.empty() || (hit && !start)) return hit;
-    const std::optional<Hit> missed = impl_->slipped_through(ray, start, hit, max_distance_m);
-    return missed ? missed : hit;
+    std::optional<Hit> hit = impl_->embree_hit(ray, start, max_distance_m);
+    if (!impl_->closed_meshes.empty() && !(hit && !start)) {
+        impl_->catch_slipped(ray, start, max_distance_m, hit);
+    }
+    return hit;
 }
 
 bool RayCaster::occluded(const Vec3& from, const SurfacePoint* from_surface, const Vec3& to,
@@ -206,7 +203,8 @@ bool RayCaster::occluded(const Vec3& from, const SurfacePoint* from_surface, con
         if (neighbour_blocks(*s, *to_surface, {to, -ray.direction}, from_surface)) return true;
         end = impl_->off_surface(*s, *to_surface, -ray.direction);
     }
-    RTCRay embree_ray = impl_->embree_ray(query, origin, distance_m);
+    RTCRay embree_ray;
+    impl_->aim(embree_ray, query, origin, distance_m);
     if (end != to || origin != from) {
         const Vec3 direction = (end - origin).normalized();
         embree_ray.dir_x = static_cast<float>(direction.x());
@@ -237,7 +235,7 @@ std::size_t RayCaster::raw_intersect(std::span<const Ray> rays) const {
         Impl::Query query = impl_->new_query(ray, nullptr);
         query.context.filter = nullptr;
         RTCRayHit rayhit;
-        rayhit.ray = impl_->embree_ray(query, ray.origin, infinity);
+        impl_->aim(rayhit.ray, query, ray.origin, infinity);
         rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
         rtcIntersect1(impl_->scene.get(), &query.context, &rayhit);
         if (rayhit.hit.geomID != RTC_INVALID_GEOMETRY_ID) ++hits;

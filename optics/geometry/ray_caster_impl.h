@@ -8,6 +8,7 @@
 
 #include <embree3/rtcore.h>
 
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -57,16 +58,15 @@ struct RayCaster::Impl {
     void throw_on_error() const;
 
     Query new_query(const Ray& ray, const SurfacePoint* start) const;
-    RTCRay embree_ray(Query& query, const Vec3& origin, double max_distance_m) const;
+    void aim(RTCRay& ray, Query& query, const Vec3& origin, double max_distance_m) const;
     const MeshInstance* mesh_of(const SurfacePoint* p) const;
     Vec3 off_surface(const MeshInstance& s, const SurfacePoint& p, const Vec3& direction) const;
     std::optional<TriangleHit> neighbour_hit(const MeshInstance& s, const SurfacePoint& p,
                                              const Ray& ray) const;
     std::optional<Hit> embree_hit(const Ray& ray, const SurfacePoint* start,
                                   double max_distance_m) const;
-    std::optional<Hit> slipped_through(const Ray& ray, const SurfacePoint* start,
-                                       const std::optional<Hit>& found,
-                                       double max_distance_m) const;
+    void catch_slipped(const Ray& ray, const SurfacePoint* start, double max_distance_m,
+                       std::optional<Hit>& hit) const;
     Hit mesh_hit(ObjectId object, std::uint32_t triangle, const Ray& ray, double distance_m) const;
     const Eigen::AlignedBox3d& bounds_of(ObjectId closed_mesh) const;
     bool keeps(const Query& query, ObjectId object, std::uint32_t triangle) const;
@@ -91,13 +91,21 @@ struct RayCaster::Impl {
     unsigned exact_geometry;
 };
 
+/// The next float above x, rounded to float first; as std::nextafter(), which is a slow call.
 inline float round_up(double x) {
-    return std::nextafter(static_cast<float>(x), std::numeric_limits<float>::infinity());
+    const auto rounded = static_cast<float>(x);
+    if (!(rounded < std::numeric_limits<float>::infinity())) return rounded;
+    if (rounded == 0.0f) return std::numeric_limits<float>::denorm_min();
+    const auto bits = std::bit_cast<std::int32_t>(rounded);
+    return std::bit_cast<float>(rounded > 0.0f ? bits + 1 : bits - 1);
+}
+
+inline Vec3 to_local(const MeshInstance& s, const Vec3& p) {
+    return s.placement.linear().transpose() * (p - s.placement.translation());
 }
 
 inline Ray to_local(const MeshInstance& s, const Ray& ray) {
-    return {s.placement.linear().transpose() * (ray.origin - s.placement.translation()),
-            s.placement.linear().transpose() * ray.direction};
+    return {to_local(s, ray.origin), s.placement.linear().transpose() * ray.direction};
 }
 
 }  // namespace lucerna::optics

@@ -43,7 +43,7 @@ std::optional<BsdfSample> sample(const Bsdf& bsdf, const SurfaceOptics& at, cons
             }
         },
         bsdf);
-    if (at.polarisation && event && !event->specular) *at.polarisation = {};
+    if (at.polarisation && event && !event->specular) at.polarisation->depolarise();
     return event;
 }
 

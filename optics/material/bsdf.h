@@ -86,11 +86,11 @@ struct SurfaceOptics {
     const std::vector<Bsdf>& bsdfs;  ///< of the scene, for mixtures
     const PhaseSpectra& spectra;     ///< spectra of the scene on the lanes of this phase
     const spectral::WavelengthSet& wavelengths;
-    Lanes index_above;        ///< index of refraction on the side of +z
-    Lanes index_below;        ///< and on the side of -z
-    bool dispersive = false;  ///< an index differs between the lanes
-    bool hero_only = false;   ///< only the hero lane of this path still counts
-    int hero = 0;             ///< the path's hero lane
+    const Lanes& index_above;  ///< index of refraction on the side of +z
+    const Lanes& index_below;  ///< and on the side of -z
+    bool dispersive = false;   ///< an index differs between the lanes
+    bool hero_only = false;    ///< only the hero lane of this path still counts
+    int hero = 0;              ///< the path's hero lane
     /// State of the light that arrives, its axis across the plane of incidence; sample() turns it
     /// into that of the light that goes on. nullptr: light counts as unpolarised at each event.
     Polarisation* polarisation = nullptr;

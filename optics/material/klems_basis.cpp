@@ -24,6 +24,10 @@ Vec3 direction(double sin_theta, double phi) {
 
 }  // namespace
 
+KlemsDirection::KlemsDirection(const Vec3& direction)
+    : sin2(direction.x() * direction.x() + direction.y() * direction.y()),
+      turns(std::atan2(direction.y(), direction.x()) / (2.0 * pi)) {}
+
 KlemsBasis::KlemsBasis(std::vector<Ring> rings) : rings_(std::move(rings)) {
     double upper = 0.0;
     for (const Ring& ring : rings_) {
@@ -65,13 +69,11 @@ KlemsBasis KlemsBasis::quarter() {
     return KlemsBasis({{0, 9, 1}, {9, 27, 8}, {27, 46, 12}, {46, 66, 12}, {66, 90, 8}});
 }
 
-int KlemsBasis::patch(const Vec3& d) const {
-    const double sin2 = d.x() * d.x() + d.y() * d.y();
-    const auto above = std::upper_bound(sin2_lower_.begin() + 1, sin2_lower_.end() - 1, sin2);
+int KlemsBasis::patch(const KlemsDirection& d) const {
+    const auto above = std::upper_bound(sin2_lower_.begin() + 1, sin2_lower_.end() - 1, d.sin2);
     const auto ring = static_cast<std::size_t>(above - sin2_lower_.begin()) - 1;
     const int sectors = rings_[ring].sector_count;
-    const double turns = std::atan2(d.y(), d.x()) / (2.0 * pi);  // [-1/2, 1/2]
-    const int sector = static_cast<int>(std::floor(turns * sectors + 0.5));
+    const int sector = static_cast<int>(std::floor(d.turns * sectors + 0.5));
     return first_patch_[ring] + (sector + sectors) % sectors;
 }
 

@@ -9,6 +9,14 @@
 
 namespace lucerna::optics {
 
+/// A unit direction with z >= 0 as patches are found by it, whose azimuth serves several bases.
+struct KlemsDirection {
+    double sin2;   ///< squared sine of the polar angle
+    double turns;  ///< azimuth over 2 pi, in [-1/2, 1/2]
+
+    KlemsDirection(const Vec3& direction);  // NOLINT: any direction is one
+};
+
 /// Patches are numbered ring by ring from the pole; the first sector of a ring is centred on
 /// azimuth 0
 /// (+x), the others follow toward +y.
@@ -29,8 +37,7 @@ public:
     static KlemsBasis quarter();
 
     int patch_count() const { return patch_count_; }
-    /// Patch of a unit direction with z >= 0.
-    int patch(const Vec3& direction) const;
+    int patch(const KlemsDirection& direction) const;
     /// Integral of cos(theta) over the patch: pi (sin^2 upper - sin^2 lower) / sectors [sr].
     double projected_solid_angle_sr(int patch) const;
     /// Direction in the patch, uniform per projected solid angle.

@@ -28,28 +28,49 @@ DiscreteDistribution distribution(std::span<const double> weights) {
 /// What can be at the other end of a path that is known at one end.
 struct Lobe {
     const KlemsMatrix* matrix = nullptr;
+    int known_patch = 0;
     const DiscreteDistribution* patches = nullptr;
     double total = 0.0;
 
-    Lobe(const KlemsMatrix* matrix_, const Vec3& known, bool forward) : matrix(matrix_) {
+    Lobe(const KlemsMatrix* matrix_, const KlemsDirection& known, bool forward) : matrix(matrix_) {
         if (!matrix) return;
-        patches = forward ? &matrix->forward(matrix->incident().patch(incident_in_basis(known)))
-                          : &matrix->backward(matrix->outgoing().patch(outgoing_in_basis(known)));
+        known_patch = (forward ? matrix->incident() : matrix->outgoing()).patch(known);
+        patches = forward ? &matrix->forward(known_patch) : &matrix->backward(known_patch);
         total = patches->total();
+    }
+
+    double bsdf_per_sr(const Vec3& other, bool forward) const {
+        if (!matrix) return 0.0;
+        if (forward) {
+            return matrix->bsdf_per_sr(known_patch,
+                                       matrix->outgoing().patch(outgoing_in_basis(other)));
+        }
+        return matrix->bsdf_per_sr(matrix->incident().patch(incident_in_basis(other)), known_patch);
     }
 };
 
 struct Lobes {
     bool forward;  ///< light arrives from the known end
+    Side side;     ///< of the known end
+    KlemsDirection known;
     Lobe reflection, transmission;
 
-    Lobes(const MeasuredParts<KlemsMatrix>& parts, const Vec3& known, Transport transport)
+    Lobes(const MeasuredParts<KlemsMatrix>& parts, const Vec3& known_end, Transport transport)
         : forward(transport == Transport::flux),
-          reflection(parts.reflected(side_of(known)), known, forward),
-          transmission(parts.transmitted(forward ? side_of(known) : other(side_of(known))), known,
-                       forward) {}
+          side(side_of(known_end)),
+          known(forward ? incident_in_basis(known_end) : outgoing_in_basis(known_end)),
+          reflection(parts.reflected(side), known, forward),
+          transmission(parts.transmitted(forward ? side : other(side)), known, forward) {}
 
     double total() const { return reflection.total + transmission.total; }
+
+    /// f with the other end, and the density with which that is sampled, both 1/sr; total() > 0.
+    double bsdf_per_sr(const Vec3& end) const {
+        return (side_of(end) == side ? reflection : transmission).bsdf_per_sr(end, forward);
+    }
+    double pdf_solid_angle(const Vec3& end, double bsdf_per_sr) const {
+        return bsdf_per_sr * std::abs(end.z()) / total();
+    }
 };
 
 }  // namespace
@@ -107,8 +128,9 @@ double KlemsBsdf::directional_hemispherical(const Vec3& in) const {
     return Lobes(parts_, in, Transport::flux).total();
 }
 
-std::optional<Vec3> KlemsBsdf::sample(const Vec3& known, double u_lobe, double u1, double u2,
-                                      Transport transport) const {
+std::optional<KlemsBsdf::Sample> KlemsBsdf::sample_with_density(const Vec3& known, double u_lobe,
+                                                                double u1, double u2,
+                                                                Transport transport) const {
     const Lobes lobes(parts_, known, transport);
     if (!(lobes.total() > 0.0)) return std::nullopt;
     const double scaled = u_lobe * lobes.total();
@@ -120,16 +142,23 @@ std::optional<Vec3> KlemsBsdf::sample(const Vec3& known, double u_lobe, double u
         static_cast<int>(lobe.patches->sample(std::min(u_patch, std::nextafter(1.0, 0.0))));
     const KlemsBasis& basis = lobes.forward ? lobe.matrix->outgoing() : lobe.matrix->incident();
     const Vec3 b = basis.sample(patch, u1, u2);
-    const double z = (side_of(known) == Side::front) == reflects ? b.z() : -b.z();
-    return lobes.forward ? Vec3(-b.x(), b.y(), z) : Vec3(b.x(), -b.y(), z);
+    const double z = (lobes.side == Side::front) == reflects ? b.z() : -b.z();
+    const Vec3 end = lobes.forward ? Vec3(-b.x(), b.y(), z) : Vec3(b.x(), -b.y(), z);
+    const double f = lobes.bsdf_per_sr(end);
+    return Sample{end, f, lobes.pdf_solid_angle(end, f)};
+}
+
+std::optional<Vec3> KlemsBsdf::sample(const Vec3& known, double u_lobe, double u1, double u2,
+                                      Transport transport) const {
+    const auto sampled = sample_with_density(known, u_lobe, u1, u2, transport);
+    return sampled ? std::optional(sampled->direction) : std::nullopt;
 }
 
 double KlemsBsdf::pdf_solid_angle(const Vec3& known, const Vec3& sampled,
                                   Transport transport) const {
     const Lobes lobes(parts_, known, transport);
     if (!(lobes.total() > 0.0)) return 0.0;
-    const double f = lobes.forward ? bsdf_per_sr(known, sampled) : bsdf_per_sr(sampled, known);
-    return f * std::abs(sampled.z()) / lobes.total();
+    return lobes.pdf_solid_angle(sampled, lobes.bsdf_per_sr(sampled));
 }
 
 }  // namespace lucerna::optics

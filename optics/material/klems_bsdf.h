@@ -74,6 +74,13 @@ public:
     std::optional<Vec3> sample(const Vec3& known, double u_lobe, double u1, double u2,
                                Transport transport) const;
     double pdf_solid_angle(const Vec3& known, const Vec3& sampled, Transport transport) const;
+    /// The same three at once: the patches of both ends are looked for only once.
+    struct Sample {
+        Vec3 direction;
+        double bsdf_per_sr, pdf_solid_angle;
+    };
+    std::optional<Sample> sample_with_density(const Vec3& known, double u_lobe, double u1,
+                                              double u2, Transport transport) const;
 
 private:
     MeasuredParts<KlemsMatrix> parts_;

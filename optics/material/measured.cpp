@@ -23,16 +23,24 @@ double pdf_solid_angle(const Measured& measured, const SurfaceOptics&, const Vec
 
 std::optional<BsdfSample> sample(const Measured& measured, const SurfaceOptics& at, const Vec3& wo,
                                  const EventNumbers& u, Transport transport) {
-    const std::optional<Vec3> wi =
-        std::visit([&](const auto& data) { return data.sample(wo, u.lobe, u.u1, u.u2, transport); },
-                   measured.data->data);
-    if (!wi) return std::nullopt;
     BsdfSample event;
-    event.wi = *wi;
-    event.pdf_solid_angle = pdf_solid_angle(measured, at, wo, *wi, transport);
+    Lanes f;
+    if (const auto* klems = std::get_if<KlemsBsdf>(&measured.data->data)) {
+        const auto sampled = klems->sample_with_density(wo, u.lobe, u.u1, u.u2, transport);
+        if (!sampled) return std::nullopt;
+        event.wi = sampled->direction;
+        event.pdf_solid_angle = sampled->pdf_solid_angle;
+        f = Lanes::Constant(static_cast<float>(sampled->bsdf_per_sr));
+    } else {
+        const auto& table = std::get<TabulatedBsdf>(measured.data->data);
+        const auto wi = table.sample(wo, u.lobe, u.u1, u.u2, transport);
+        if (!wi) return std::nullopt;
+        event.wi = *wi;
+        event.pdf_solid_angle = table.pdf_solid_angle(wo, *wi, transport);
+        f = evaluate(measured, at, wo, *wi, transport);
+    }
     if (!(event.pdf_solid_angle > 0.0)) return std::nullopt;  // wi rounded onto the horizon
-    event.weight = evaluate(measured, at, wo, *wi, transport) *
-                   static_cast<float>(std::abs(wi->z()) / event.pdf_solid_angle);
+    event.weight = f * static_cast<float>(std::abs(event.wi.z()) / event.pdf_solid_angle);
     return event;
 }
 

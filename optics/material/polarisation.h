@@ -34,6 +34,10 @@ struct Mueller {
 /// up to the signs of U and V, and surfaces that scatter, lights and observers know I alone.
 class Polarisation {
 public:
+    /// Unpolarised light; what is not read then is not set.
+    Polarisation() {}
+
+    void depolarise() { unpolarised_ = true; }
     bool unpolarised() const { return unpolarised_; }
 
     /// Refers the state to another axis.

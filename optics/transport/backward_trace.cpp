@@ -17,22 +17,33 @@ constexpr std::uint32_t specular_gathers_of_bin = 1;
 /// One backward ray on its way.
 class BackwardRay {
 public:
-    BackwardRay(const Phase& phase, const Collection& collection, const SensorPlanes& planes,
-                const ForwardMaps& maps, PhaseReadings& readings, BackwardTally& tally,
-                std::vector<BackwardPhoton>& stored)
+    BackwardRay(const Phase& phase, const Collection& collection, const ObserverBins& bins,
+                const SensorPlanes& planes, const ForwardMaps& maps, PhaseReadings& readings,
+                BackwardTally& tally, std::vector<BackwardPhoton>& stored)
         : phase_(phase),
           collection_(collection),
           planes_(planes),
           maps_(maps),
           readings_(readings),
           tally_(tally),
-          stored_(stored) {}
+          stored_(stored) {
+        const Observer& observer = phase.stage.parts().observers[bins.observer];
+        if (const auto* camera = std::get_if<Camera>(&observer)) {
+            camera_rays_.emplace(*camera);
+            media_of_observer_ = phase.stage.media_at(camera->from);
+        } else if (const auto* meter = std::get_if<LuminanceMeter>(&observer)) {
+            media_of_observer_ = phase.stage.media_at(meter->position);
+        }
+    }
 
     /// All rays of a bin.
     void trace(const ObserverBins& bins, std::size_t bin) {
         bin_ = static_cast<std::uint32_t>(bins.first_bin + bin);
         const std::uint32_t samples = bins.samples_per_bin;
         const Observer& observer = phase_.stage.parts().observers[bins.observer];
+        if (std::holds_alternative<IlluminancePoints>(observer)) {
+            media_of_observer_ = phase_.stage.media_at(planes_.point(bins.observer, bin).position);
+        }
         const std::uint32_t set =
             RandomStream(phase_.seed, phase_.number, RandomPurpose::strata, bin_).bits();
         const std::uint32_t gathers = gathers_of_bin(bins, observer);
@@ -58,13 +69,13 @@ private:
                StratifiedStream& random) {
         scatterings_ = 0;
         specular_since_ = false;
-        path_ = {.ray = {Vec3::Zero(), Vec3::UnitZ()},
-                 .start = {},
-                 .media = {},
-                 .weight = Lanes::Constant(1.0f / static_cast<float>(bins.samples_per_bin)),
-                 .hero_only = false,
-                 .hero = phase_.wavelengths.hero,
-                 .lossless_events = 0};
+        path_.start.object = no_object;
+        path_.media = media_of_observer_;
+        path_.weight = Lanes::Constant(1.0f / static_cast<float>(bins.samples_per_bin));
+        path_.hero_only = false;
+        path_.hero = phase_.wavelengths.hero;
+        path_.lossless_events = 0;
+        path_.polarisation.depolarise();
         importance_ = 1.0;
         if (!leave_observer(bins, bin, sample, random)) return;
         while (true) {
@@ -85,8 +96,8 @@ private:
         const auto [u1, u2] = random.pair();
         if (const auto* camera = std::get_if<Camera>(&observer)) {
             const auto width = static_cast<std::size_t>(camera->width);
-            path_.ray = camera->ray(static_cast<double>(bin % width) + u1,
-                                    static_cast<double>(bin / width) + u2);
+            path_.ray = camera_rays_->through(static_cast<double>(bin % width) + u1,
+                                              static_cast<double>(bin / width) + u2);
         } else if (const auto* meter = std::get_if<LuminanceMeter>(&observer)) {
             const Frame frame(meter->direction);
             path_.ray = {meter->position, frame.to_world(sample_cone(
@@ -99,7 +110,6 @@ private:
             }
             return leave_sensor(points, planes_.point(bins.observer, bin), u1, u2, random);
         }
-        path_.media = phase_.stage.media_at(path_.ray.origin);
         return true;
     }
 
@@ -126,7 +136,6 @@ private:
     bool leave_sensor(const IlluminancePoints& points, const SensorPlanes::Point& sensor, double u1,
                       double u2, StratifiedStream& random) {
         const Vec3& position = sensor.position;
-        path_.media = phase_.stage.media_at(position);
         path_.weight *= static_cast<float>(pi);
         at_sensor(points, sensor, [&](const GatherPoint& at) {
             readings_.add(phase_, bin_,
@@ -326,6 +335,8 @@ private:
         Path path;
         double importance;
     };
+    std::optional<CameraRays> camera_rays_;  // of a camera
+    MediumStack media_of_observer_;          // where the rays of the present bin start
     std::vector<Branch> branches_;  // before the first scattering event, still to be followed
     struct Seen {
         std::uint32_t patch;
@@ -392,7 +403,7 @@ std::vector<BackwardPhoton> trace_backward(const Phase& phase, const Collections
     std::vector<BackwardPhoton> stored;
     const bool camera =
         std::holds_alternative<Camera>(phase.stage.parts().observers[bins.observer]);
-    BackwardRay ray(phase, camera ? collections.cameras : collections.sensors, planes, maps,
+    BackwardRay ray(phase, camera ? collections.cameras : collections.sensors, bins, planes, maps,
                     readings, tally, stored);
     for (std::size_t bin = block.first; bin < block.last; ++bin) ray.trace(bins, bin);
     return stored;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 
 namespace lucerna::optics {
 namespace {
@@ -32,13 +33,11 @@ std::optional<Lanes> line_of_sight(const Phase& phase, const Vec3& from,
         return phase.transmittance(media.acting(parts), length_m);
     }
     // Surfaces that do not act on light are passed one by one.
-    Path line{.ray = {from, light.direction},
-              .start = surface ? *surface : SurfacePoint{},
-              .media = std::move(media),
-              .weight = Lanes::Ones(),
-              .hero_only = false,
-              .hero = phase.wavelengths.hero,
-              .lossless_events = 0};
+    Path line;
+    line.ray = {from, light.direction};
+    if (surface) line.start = *surface;
+    line.media = media;
+    line.weight = Lanes::Ones();
     while (true) {
         ++shadow_segments;
         const double rest_m = (light.position - line.ray.origin).norm();
@@ -89,7 +88,13 @@ Lanes direct_light(const Phase& phase, const GatherPoint& at, const SurfacePoint
         double luminance;
         bool above;
     };
-    std::array<std::optional<Candidate>, max_light_draws> candidates;
+    // Not initialised: that would take longer than what is done with a light.
+    union Slot {
+        Slot() {}
+        Candidate value;
+    };
+    std::array<Slot, max_light_draws> candidates;
+    std::size_t found = 0;
     double total = 0.0;
     for (std::size_t draw = 0; draw < draws; ++draw) {
         const std::size_t chosen =
@@ -110,13 +115,13 @@ Lanes direct_light(const Phase& phase, const GatherPoint& at, const SurfacePoint
         const Lanes radiance =
             f * phase.spectra[light.flux_w_per_nm] *
             static_cast<float>(std::abs(wi.z()) * sampled->factor * weight / expected);
-        candidates[draw] = {*sampled, radiance, phase.luminous(radiance), wi.z() > 0.0};
-        total += candidates[draw]->luminance;
+        const Candidate& candidate = *std::construct_at(
+            &candidates[found++].value, *sampled, radiance, phase.luminous(radiance), wi.z() > 0.0);
+        total += candidate.luminance;
     }
     Lanes sum = Lanes::Zero();
-    for (std::size_t draw = 0; draw < draws; ++draw) {
-        if (!candidates[draw]) continue;
-        const Candidate& candidate = *candidates[draw];
+    for (std::size_t i = 0; i < found; ++i) {
+        const Candidate& candidate = candidates[i].value;
         // Shadow rays for what matters; the rest by roulette.
         const double tested =
             total > 0.0 ? std::min(1.0, candidate.luminance / (roulette_share * total)) : 1.0;

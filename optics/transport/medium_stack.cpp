@@ -20,7 +20,7 @@ bool MediumStack::leave(ObjectId solid) {
     return true;
 }
 
-ObjectId MediumStack::acting(const SceneParts& parts) const {
+ObjectId MediumStack::strongest(const SceneParts& parts) const {
     const auto rank = [&](ObjectId solid) {
         return std::pair(parts.media[*parts.objects[solid].interior].priority, solid);
     };

@@ -20,9 +20,13 @@ public:
     bool empty() const { return count_ == 0; }
 
     /// The solid whose medium acts here, or no_object for the surroundings.
-    ObjectId acting(const SceneParts& parts) const;
+    ObjectId acting(const SceneParts& parts) const {
+        return empty() ? no_object : strongest(parts);
+    }
 
 private:
+    ObjectId strongest(const SceneParts& parts) const;
+
     static constexpr unsigned capacity = 12;
     std::array<ObjectId, capacity> solids_;
     std::uint8_t count_ = 0;

@@ -17,35 +17,37 @@ Frame bsdf_frame(const Phase& phase, const SurfacePoint& point) {
     return Frame(point.normal);
 }
 
-std::optional<Encounter> next_encounter(const Phase& phase, const Path& path) {
-    const Stage& stage = phase.stage;
-    const SceneParts& parts = stage.parts();
-    if (phase.ray_log) phase.ray_log->push_back(path.ray);
-    const SurfacePoint* start = path.start.object == no_object ? nullptr : &path.start;
-    const auto hit = stage.caster().intersect(path.ray, start);
-    if (!hit) return std::nullopt;
+namespace {
 
-    const Object& object = parts.objects[hit->point.object];
-    const bool from_above = path.ray.direction.dot(hit->point.normal) < 0.0;
+// An optional that is empty at first would be cleared as a whole, and it is large.
+std::optional<Encounter> encounter_at(const Phase& phase, const Path& path, const Hit& hit) {
+    const SceneParts& parts = phase.stage.parts();
+    const Object& object = parts.objects[hit.point.object];
+    const bool from_above = path.ray.direction.dot(hit.point.normal) < 0.0;
     const ObjectId here = path.media.acting(parts);
-    Encounter encounter{.point = hit->point,
-                        .transmittance = phase.transmittance(here, hit->distance_m),
-                        .bsdf = from_above ? object.front : object.back,
-                        .frame = bsdf_frame(phase, hit->point),
-                        .wo = Vec3::Zero(),
-                        .medium_above = here,
-                        .medium_below = here,
-                        .media_beyond = path.media,
-                        .consistent = true};
-    encounter.wo = encounter.frame.to_local(-path.ray.direction);
+    const Frame frame = bsdf_frame(phase, hit.point);
+    std::optional<Encounter> encounter(std::in_place, hit.point,
+                                       phase.transmittance(here, hit.distance_m),
+                                       from_above ? object.front : object.back, frame,
+                                       frame.to_local(-path.ray.direction), here, here, path.media);
     if (object.interior) {
-        encounter.consistent = from_above ? encounter.media_beyond.enter(hit->point.object)
-                                          : encounter.media_beyond.leave(hit->point.object);
-        const ObjectId beyond = encounter.media_beyond.acting(parts);
-        (from_above ? encounter.medium_below : encounter.medium_above) = beyond;
-        if (here == beyond) encounter.bsdf = pass_through;  // hidden in a solid of higher priority
+        encounter->consistent = from_above ? encounter->media_beyond.enter(hit.point.object)
+                                           : encounter->media_beyond.leave(hit.point.object);
+        const ObjectId beyond = encounter->media_beyond.acting(parts);
+        (from_above ? encounter->medium_below : encounter->medium_above) = beyond;
+        if (here == beyond) encounter->bsdf = pass_through;  // hidden in one of higher priority
     }
     return encounter;
+}
+
+}  // namespace
+
+std::optional<Encounter> next_encounter(const Phase& phase, const Path& path) {
+    if (phase.ray_log) phase.ray_log->push_back(path.ray);
+    const SurfacePoint* start = path.start.object == no_object ? nullptr : &path.start;
+    const auto hit = phase.stage.caster().intersect(path.ray, start);
+    if (!hit) return std::nullopt;
+    return encounter_at(phase, path, *hit);
 }
 
 SurfaceOptics optics_at(const Phase& phase, ObjectId medium_above, ObjectId medium_below,
@@ -66,8 +68,10 @@ SurfaceOptics optics_at(const Phase& phase, const Encounter& encounter, Path& pa
         optics_at(phase, encounter.medium_above, encounter.medium_below, path.hero_only, path.hero);
     if (phase.stage.follows_polarisation()) {
         const Vec3& direction = path.ray.direction;
-        path.polarisation.refer_to(axis_across_incidence(encounter.frame.normal, direction),
-                                   direction);
+        if (phase.stage.is_specular(encounter.bsdf)) {  // other surfaces only depolarise
+            path.polarisation.refer_to(axis_across_incidence(encounter.frame.normal, direction),
+                                       direction);
+        }
         optics.polarisation = &path.polarisation;
     }
     return optics;

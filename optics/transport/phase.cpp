@@ -13,8 +13,8 @@ Phase::Phase(const Stage& stage_, std::uint64_t seed_, std::uint32_t number_)
     }
 }
 
-Lanes Phase::index(ObjectId acting_solid) const {
-    if (acting_solid == no_object) return Lanes::Ones();
+const Lanes& Phase::index(ObjectId acting_solid) const {
+    if (acting_solid == no_object) return ones;
     const SceneParts& parts = stage.parts();
     return spectra[parts.media[*parts.objects[acting_solid].interior].index];
 }

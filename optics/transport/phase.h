@@ -13,11 +13,12 @@ struct Phase {
     std::uint32_t number;  ///< counts from 0
     spectral::WavelengthSet wavelengths;
     PhaseSpectra spectra;  ///< of the scene, by SpectrumId
+    const Lanes ones = Lanes::Ones();
     /// Takes down each ray that is cast, for the benchmark; one thread only. Usually nullptr.
     std::vector<Ray>* ray_log = nullptr;
 
-    /// Index of refraction and absorption coefficient of the medium in a solid (or surroundings).
-    Lanes index(ObjectId acting_solid) const;
+    /// Index of refraction of the medium in a solid; 1 in the surroundings.
+    const Lanes& index(ObjectId acting_solid) const;
     bool dispersive(ObjectId acting_solid) const;
     /// Internal transmittance over a length; 1 in the surroundings.
     Lanes transmittance(ObjectId acting_solid, double length_m) const;

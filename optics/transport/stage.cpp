@@ -96,6 +96,7 @@ Stage::Stage(const SceneParts& parts, std::optional<bool> polarisation)
         }));
     for (const Bsdf& bsdf : parts_.bsdfs) {
         scatters_.push_back(has_scattering_lobe(bsdf, parts_.bsdfs));
+        is_specular_.push_back(has_specular_lobe(bsdf, parts_.bsdfs));
     }
     patch_offset_.push_back(0);
     for (ObjectId id = 0; id < parts_.objects.size(); ++id) {
@@ -105,7 +106,12 @@ Stage::Stage(const SceneParts& parts, std::optional<bool> polarisation)
         for (std::uint32_t patch = 0; patch < patches; ++patch) {
             patch_areas_m2_.push_back(optics::patch_area_m2(object.shape, patch));
         }
-        if (object.interior) solids_.push_back(id);
+        if (object.interior) {
+            // Well outside of the surface, whose sides are for contains() to tell.
+            const Eigen::AlignedBox3d box = bounds(object.shape);
+            const Vec3 margin = Vec3::Constant(1e-6 * box.diagonal().norm());
+            solids_.emplace_back(id, Eigen::AlignedBox3d(box.min() - margin, box.max() + margin));
+        }
         for (const BsdfId side : {object.front, object.back}) {
             if (side == pass_through) {
                 has_null_surfaces_ = true;
@@ -126,7 +132,8 @@ Stage::Stage(const SceneParts& parts, std::optional<bool> polarisation)
 
 MediumStack Stage::media_at(const Vec3& point) const {
     MediumStack stack;
-    for (const ObjectId solid : solids_) {
+    for (const auto& [solid, box] : solids_) {
+        if (!box.contains(point)) continue;  // most points are in none
         if (contains(parts_.objects[solid].shape, point) && !stack.enter(solid)) {
             throw InputError({}, "more than 12 transparent solids overlap in one point");
         }

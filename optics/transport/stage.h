@@ -39,6 +39,8 @@ public:
     /// The virtual surface of illuminance points: Lambertian, reflectance 1.
     BsdfId white_diffuser() const { return white_diffuser_; }
     bool scatters(BsdfId bsdf) const { return scatters_[bsdf]; }
+    /// Whether the BSDF has a specular lobe.
+    bool is_specular(BsdfId bsdf) const { return is_specular_[bsdf]; }
     /// True if light can reach a scattering surface by specular events only: else no caustic map.
     bool has_caustics() const { return has_caustics_; }
     /// True if paths carry the polarisation of their light from event to event.
@@ -60,8 +62,8 @@ private:
     DiscreteDistribution light_choice_;
     std::vector<std::uint32_t> patch_offset_;  // one more than objects
     std::vector<double> patch_areas_m2_;
-    std::vector<bool> scatters_;
-    std::vector<ObjectId> solids_;  // objects with an interior
+    std::vector<bool> scatters_, is_specular_;
+    std::vector<std::pair<ObjectId, Eigen::AlignedBox3d>> solids_;  // objects with an interior
     BsdfId white_diffuser_ = 0;
     bool has_caustics_ = false;
     bool has_null_surfaces_ = false;

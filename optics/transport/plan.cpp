@@ -9,8 +9,8 @@ namespace {
 
 constexpr std::uint32_t min_pilot_rays = 1 << 14, max_pilot_rays = 1 << 15;
 // What the choice of the collection for images is made from.
-constexpr std::uint32_t pilot_phases = 4;
-constexpr std::size_t pilot_blocks = 64;
+constexpr std::uint32_t pilot_phases = 3;
+constexpr std::size_t pilot_blocks = 24;
 constexpr std::uint32_t min_forward_rays = 20000;
 // Secondary forward rays per backward ray: their noise is averaged over all second scattering
 // events that a kernel serves, so that few are enough (the same delta with 1 and with 1/4 in

@@ -129,6 +129,7 @@ public:
             }
         }
         for (std::thread& thread : threads) thread.join();
+        trace_.backward_map_bytes = 0;
         for (const auto& group : groups_) {
             trace_.counts.deposits += group->deposited;
             trace_.counts.backward_photons += group->open_map.map().size();

@@ -21,7 +21,8 @@ constexpr std::uint64_t backward_per_caustic_ray = 2;
 // scattering event, many where it is seen, unless its bias there is large. Sensors start with few,
 // and get more where the bias is shown to be small.
 constexpr double photons_per_hidden_kernel = 16.0;
-constexpr double photons_per_seen_kernel = 200.0;
+constexpr double photons_per_kernel_of_images = 200.0;
+constexpr double photons_per_kernel_of_meters = 24.0;
 constexpr double photons_per_sensor_kernel = 24.0;
 // Where all indirect light is gathered at seen surfaces, it is mostly smooth: kernels are as wide
 // as their bias allows. For each ray that a gather stands for, this many photons in the kernel, on
@@ -68,9 +69,16 @@ void choose_radii(const Setting& setting, const Settings& settings, Plan& plan) 
         }
         return some;
     };
+    const auto& observers = stage.parts().observers;
+    // What a luminance meter reads has little noise, and bounds that hold need little bias.
+    const bool meters = std::any_of(observers.begin(), observers.end(), [](const Observer& o) {
+        return std::holds_alternative<LuminanceMeter>(o);
+    });
     plan.caustic_radii =
         narrow_radii(stage, setting.planes, of(History::caustic),
-                     {photons_per_seen_kernel, photons_per_sensor_kernel}, plan.caustic_rays, true);
+                     {meters ? photons_per_kernel_of_meters : photons_per_kernel_of_images,
+                      photons_per_sensor_kernel},
+                     plan.caustic_rays, true);
     plan.hidden_radii = narrow_radii(stage, setting.planes, photons,
                                      {photons_per_hidden_kernel, photons_per_hidden_kernel},
                                      plan.secondary_rays, false);

@@ -52,7 +52,7 @@ struct BiasLimit {
 };
 // A sensor's kernel is widened only where its bias is shown to be small; about the square of it is
 // left when it is taken off. A surface's is narrowed only where it is shown to be large.
-constexpr BiasLimit of_sensors{0.05, 0.0};
+constexpr BiasLimit of_sensors{0.03, 0.0};
 constexpr BiasLimit of_surfaces{0.15, 2.0};
 
 // The widest radius, at most limit_m, whose bias keeps within the limit at the points, and that of

@@ -44,7 +44,7 @@ struct PhotonsPerKernel {
 /// No radius exceeds an eighth of the patch's size, nor a 20th of the scene's radius.
 ///
 /// A sensor gathers once per phase for all its rays, and can afford a wide kernel: it gets the
-/// widest that shows a bias of 5 % of the light at its points at most, root mean square, so that
+/// widest that shows a bias of 3 % of the light at its points at most, root mean square, so that
 /// less than 1 % is left when that is taken off. Where kernels are `seen`, those of surfaces are
 /// narrowed until they show no more than 15 %.
 Radii narrow_radii(const Stage& stage, const SensorPlanes& planes, const PilotPhotons& pilot,

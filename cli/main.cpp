@@ -14,21 +14,11 @@
 #include "cli/commands.h"
 #include "core/diagnostics.h"
 #include "io/quantity.h"
+#include "io/setting_names.h"
 
 using namespace lucerna;
 
 namespace {
-
-const std::map<std::string, optics::Scheduler> schedulers{
-    {"ordered", optics::Scheduler::ordered},
-    {"synchronous", optics::Scheduler::synchronous},
-    {"asynchronous", optics::Scheduler::asynchronous},
-    {"two-level", optics::Scheduler::two_level}};
-const std::map<std::string, optics::Method> methods{{"automatic", optics::Method::automatic},
-                                                    {"combined", optics::Method::combined},
-                                                    {"forward", optics::Method::forward},
-                                                    {"backward", optics::Method::backward},
-                                                    {"path", optics::Method::path}};
 
 // Hands a number with unit, such as 2% or 60s, to an optional value.
 std::function<void(const std::string&)> quantity_into(std::optional<double>& value,
@@ -84,12 +74,12 @@ struct CommandLine {
         run_command->add_option("--seed", run.seed, "Seed of the random numbers")
             ->check(CLI::NonNegativeNumber);
         run_command->add_option("--method", run.method, "Estimators to use")
-            ->transform(CLI::CheckedTransformer(methods));
+            ->transform(CLI::CheckedTransformer(io::methods()));
         run_command
             ->add_option("--scheduler", run.scheduler,
                          "How threads share the work; synchronous and two-level do not give the "
                          "same bits twice [ordered]")
-            ->transform(CLI::CheckedTransformer(schedulers));
+            ->transform(CLI::CheckedTransformer(io::schedulers()));
         run_command
             ->add_option("--spectral", run.spectral_bins, "Bins of the spectral image [0: none]")
             ->check(CLI::Range(0, 470));  // 1 nm over 360 to 830 nm
@@ -130,13 +120,13 @@ struct CommandLine {
                          "Estimators to compare, such as combined,forward [those of the scene]")
             ->delimiter(',')
             ->allow_extra_args(false)
-            ->transform(CLI::CheckedTransformer(methods));
+            ->transform(CLI::CheckedTransformer(io::methods()));
         bench_command
             ->add_option("--scheduler", bench.schedulers,
                          "Ways of sharing the work among threads to compare [ordered]")
             ->delimiter(',')
             ->allow_extra_args(false)
-            ->transform(CLI::CheckedTransformer(schedulers));
+            ->transform(CLI::CheckedTransformer(io::schedulers()));
         CLI::Option* delta =
             bench_command
                 ->add_option_function("--delta", quantity_into(bench.delta, io::dimension::percent),
@@ -170,7 +160,7 @@ struct CommandLine {
             ->add_option("--phases", validate.phases, "Phases of each run [those of the case]")
             ->check(CLI::PositiveNumber);
         validate_command->add_option("--method", validate.method, "Estimators [those of the case]")
-            ->transform(CLI::CheckedTransformer(methods));
+            ->transform(CLI::CheckedTransformer(io::methods()));
         validate_command->add_option("-o,--output", validate.output,
                                      "Folder of validation.json and validation.html [none]");
 

@@ -2,7 +2,7 @@
 
 #include "core/parallel.h"
 #include "io/benchmark_report.h"
-#include "io/report.h"
+#include "io/setting_names.h"
 
 namespace lucerna::io {
 namespace {
@@ -73,8 +73,8 @@ BenchmarkJson measure_json(const optics::RunMeasure& m, const std::optional<doub
 BenchmarkJson run_json(const optics::TimedRun& run, const optics::TimedRun& first,
                        const std::optional<double>& delta) {
     const optics::Comparison comparison = optics::compare(run, first);
-    BenchmarkJson json = {{"method", method_name(run.method)},
-                          {"scheduler", scheduler_name(run.scheduler)},
+    BenchmarkJson json = {{"method", name_of(run.method)},
+                          {"scheduler", name_of(run.scheduler)},
                           {"threads", run.threads},
                           {"relative_to_first",
                            {{"speed_up", comparison.speed_up},

@@ -4,7 +4,7 @@
 
 #include "io/benchmark_report.h"
 #include "io/measured_value.h"
-#include "io/report.h"
+#include "io/setting_names.h"
 #include "io/text_table.h"
 
 namespace lucerna::io {
@@ -100,8 +100,8 @@ std::string runs_text(const std::vector<optics::TimedRun>& runs, const Benchmark
     using optics::RunMeasure;
     using optics::TimedRun;
     RunTable table(runs);
-    table.add("method", [](const TimedRun& run) { return method_name(run.method); });
-    table.add("scheduler", [](const TimedRun& run) { return scheduler_name(run.scheduler); });
+    table.add("method", [](const TimedRun& run) { return name_of(run.method); });
+    table.add("scheduler", [](const TimedRun& run) { return name_of(run.scheduler); });
     table.add("threads", [](const TimedRun& run) { return fmt::format("{}", run.threads); });
     table.add("setup", [](const TimedRun& run) {
         return fmt::format("{:.4f} s", run.fastest().rays.setup_s);

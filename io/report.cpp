@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/parallel.h"
+#include "io/setting_names.h"
 
 namespace lucerna::io {
 namespace {
@@ -132,36 +133,6 @@ Json rays_json(const optics::RayCounts& rays, Numbers& number) {
 
 }  // namespace
 
-std::string scheduler_name(optics::Scheduler scheduler) {
-    switch (scheduler) {
-        case optics::Scheduler::ordered:
-            return "ordered";
-        case optics::Scheduler::synchronous:
-            return "synchronous";
-        case optics::Scheduler::asynchronous:
-            return "asynchronous";
-        case optics::Scheduler::two_level:
-            return "two-level";
-    }
-    throw std::logic_error("unknown scheduler");
-}
-
-std::string method_name(optics::Method method) {
-    switch (method) {
-        case optics::Method::automatic:
-            return "automatic";
-        case optics::Method::combined:
-            return "combined";
-        case optics::Method::forward:
-            return "forward";
-        case optics::Method::backward:
-            return "backward";
-        case optics::Method::path:
-            return "path";
-    }
-    throw std::logic_error("unknown method");
-}
-
 std::string report_json(const optics::Result& result, const ReportSource& source) {
     Numbers number;
     const int threads = result.settings.threads > 0 ? result.settings.threads : hardware_threads();
@@ -170,8 +141,8 @@ std::string report_json(const optics::Result& result, const ReportSource& source
                  {"scene", source.scene},
                  {"scene_hash", source.scene_hash},
                  {"seed", result.settings.seed},
-                 {"method", method_name(result.settings.method)},
-                 {"scheduler", scheduler_name(result.settings.scheduler)},
+                 {"method", name_of(result.settings.method)},
+                 {"scheduler", name_of(result.settings.scheduler)},
                  {"polarisation", result.settings.polarisation.value_or(false)},
                  {"threads", threads},
                  {"phases", result.phases},

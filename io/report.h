@@ -16,10 +16,6 @@ struct ReportSource {
 /// The coverage probability of each expanded uncertainty that is reported.
 inline constexpr double report_coverage = 0.95;
 
-/// As the command line writes them: "combined", "two-level".
-std::string method_name(optics::Method method);
-std::string scheduler_name(optics::Scheduler scheduler);
-
 /// The report as JSON text; docs/results.md lists its keys. A number that is infinite or undefined,
 /// such as the standard error of a single phase, is null, and a warning names it.
 std::string report_json(const optics::Result& result, const ReportSource& source);

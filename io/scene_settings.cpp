@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <limits>
-#include <map>
+
+#include "io/setting_names.h"
 
 namespace lucerna::io {
 namespace {
@@ -83,15 +84,10 @@ optics::Settings read_settings(const YamlCursor& section, const optics::ScenePar
     optics::Settings settings;
     if (!section) return settings;
     YamlMap map(section);
-    if (const auto method = map.optional("method").choice(
-            {"automatic", "combined", "forward", "backward", "path"})) {
-        const std::map<std::string, optics::Method> methods{
-            {"automatic", optics::Method::automatic},
-            {"combined", optics::Method::combined},
-            {"forward", optics::Method::forward},
-            {"backward", optics::Method::backward},
-            {"path", optics::Method::path}};
-        settings.method = methods.at(*method);
+    std::vector<std::string> names;
+    for (const auto& [name, method] : methods()) names.push_back(name);
+    if (const auto name = map.optional("method").choice(names)) {
+        settings.method = methods().at(*name);
     }
     if (const YamlCursor accuracy = map.optional("accuracy")) {
         YamlMap wanted(accuracy);

@@ -11,9 +11,6 @@ constexpr std::uint8_t all_light =
 // A branch that carries less of its path goes on by choosing one event at random.
 constexpr double least_importance_to_branch = 0.02;
 
-// Rays of a bin that gather behind specular events, for each one that does so straight on.
-constexpr std::uint32_t specular_gathers_of_bin = 1;
-
 /// One backward ray on its way.
 class BackwardRay {
 public:
@@ -48,7 +45,6 @@ public:
             RandomStream(phase_.seed, phase_.number, RandomPurpose::strata, bin_).bits();
         const std::uint32_t gathers = gathers_of_bin(bins, observer);
         rays_per_gather_ = samples / gathers;
-        const std::uint32_t specular_gathers = std::min(samples, specular_gathers_of_bin * gathers);
         seen_.clear();
         for (std::uint32_t sample = 0; sample < samples; ++sample) {
             const auto path_number =
@@ -57,9 +53,7 @@ public:
                 {phase_.seed, phase_.number, RandomPurpose::backward, path_number},
                 {set, sample, samples});
             specular_gather_weight_ =
-                sample < specular_gathers
-                    ? static_cast<float>(samples) / static_cast<float>(specular_gathers)
-                    : 0.0f;
+                sample < gathers ? static_cast<float>(samples) / static_cast<float>(gathers) : 0.0f;
             trace(bins, bin, sample, random);
         }
     }

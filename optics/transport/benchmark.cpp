@@ -37,9 +37,9 @@ public:
           phase_(stage_, settings.seed, 0),
           readings_(parts, settings),
           values_(readings_.new_phase()),
-          setting_{stage_, planes_, readings_, Scheduler::ordered,
+          context_{stage_, planes_, readings_, Scheduler::ordered,
                    *std::max_element(effort.threads.begin(), effort.threads.end())},
-          plan_(make_plan(setting_, without_choice_of_collection(settings))) {}
+          plan_(make_plan(context_, without_choice_of_collection(settings))) {}
 
     TraceRates forward_trace() {
         return trace_rates([&](int threads) { arrivals(effort_.paths, threads, false); });
@@ -52,10 +52,10 @@ public:
 
     BackwardMapRates backward_map() {
         BackwardMapRates rates;
-        const auto vertices = trace(readings_.blocks(), to_second_event, setting_.threads);
+        const auto vertices = trace(readings_.blocks(), to_second_event, context_.threads);
         for (const auto& block : vertices) rates.build.items += block.size();
         if (rates.build.items == 0) return rates;
-        const auto photons = arrivals(plan_.secondary_rays, setting_.threads, true);
+        const auto photons = arrivals(plan_.secondary_rays, context_.threads, true);
         for (const auto& task : photons) rates.find.items += task.size();
 
         BackwardMap map;
@@ -87,7 +87,7 @@ public:
         const std::uint32_t rays = caustic ? plan_.caustic_rays : plan_.indirect_rays;
         ForwardTally unused(stage_.parts());
         const std::vector<Photon> photons = trace_photons(
-            phase_, setting_, caustic ? RandomPurpose::caustic : RandomPurpose::indirect,
+            phase_, context_, caustic ? RandomPurpose::caustic : RandomPurpose::indirect,
             caustic ? Reach::first_scattering : Reach::whole_path, mask(history), rays, unused);
         if (photons.empty()) return rates;
 
@@ -97,7 +97,7 @@ public:
                       map = ForwardMap(stage_, radii, photons, rays, threads);
                   }));
         std::vector<BackwardPhoton> seen;
-        for (const auto& block : trace(some_blocks(), to_first_event, setting_.threads)) {
+        for (const auto& block : trace(some_blocks(), to_first_event, context_.threads)) {
             seen.insert(seen.end(), block.begin(), block.end());
         }
         rates.gather.items = seen.size();
@@ -263,7 +263,7 @@ private:
     Phase phase_;
     Readings readings_;
     PhaseReadings values_;  // written, never read
-    Setting setting_;
+    TraceContext context_;
     Plan plan_;
 };
 

@@ -103,19 +103,19 @@ int group_count(int threads) {
 
 class Groups {
 public:
-    Groups(const Phase& phase, const Setting& setting, const Plan& plan,
+    Groups(const Phase& phase, const TraceContext& context, const Plan& plan,
            std::span<const BinBlock> blocks, const ForwardMaps& maps, const Radii& hidden_radii,
            PhaseTrace& trace)
         : phase_(phase),
-          setting_(setting),
+          context_(context),
           plan_(plan),
           maps_(maps),
           hidden_radii_(hidden_radii),
           trace_(trace),
           batches_((plan.secondary_rays + forward_rays_per_block - 1) / forward_rays_per_block) {
-        const int count = group_count(setting.threads);
+        const int count = group_count(context.threads);
         for (int i = 0; i < count; ++i) {
-            threads_of_.push_back(setting.threads / count + (i < setting.threads % count ? 1 : 0));
+            threads_of_.push_back(context.threads / count + (i < context.threads % count ? 1 : 0));
             groups_.push_back(std::make_unique<Group>(threads_of_.back()));
         }
         share_out(blocks);
@@ -157,7 +157,7 @@ private:
         for (std::size_t g = 0; g < groups_.size(); ++g) {
             threads += static_cast<std::size_t>(threads_of_[g]);
             const std::size_t end =
-                shuffled.size() * threads / static_cast<std::size_t>(setting_.threads);
+                shuffled.size() * threads / static_cast<std::size_t>(context_.threads);
             const auto last = shuffled.begin() + static_cast<std::ptrdiff_t>(end);
             groups_[g]->blocks.assign(first, last);
             groups_[g]->stored.resize(groups_[g]->blocks.size());
@@ -170,15 +170,15 @@ private:
         for (std::size_t i; (i = group.next_block++) < group.blocks.size();) {
             const BinBlock& block = group.blocks[i];
             group.stored[i] = trace_backward(
-                phase_, plan_.collections, setting_.readings.observers()[block.observer_bins],
-                block, setting_.planes, maps_, trace_.readings, group.tallies[i]);
+                phase_, plan_.collections, context_.readings.observers()[block.observer_bins],
+                block, context_.planes, maps_, trace_.readings, group.tallies[i]);
         }
         group.meeting.arrive_and_wait();
         if (owner) {
             group.open_map.open({phase_, hidden_radii_, std::move(group.stored), 1}, batches_);
         }
         // The others of the group go on with forward rays for the maps that are open by now.
-        ForwardTally tally(setting_.stage.parts());
+        ForwardTally tally(context_.stage.parts());
         std::uint64_t hits = 0, segments = 0;
         const auto trace_batch = [&] { this->trace_batch(tally, hits, segments); };
         while (!group.closed) {
@@ -222,7 +222,7 @@ private:
         // The flux balance takes the first rays, so that their number is fixed as well.
         const bool counts = batch < batches_;
         std::vector<BackwardMap::Deposits> deposits(entered.size());
-        ForwardTally of_batch(setting_.stage.parts());
+        ForwardTally of_batch(context_.stage.parts());
         for (std::uint32_t i = 0; i < forward_rays_per_block; ++i) {
             trace_forward(phase_, RandomPurpose::secondary, batch * forward_rays_per_block + i,
                           Reach::whole_path, nullptr, of_batch, [&](const Photon& photon) {
@@ -240,7 +240,7 @@ private:
     }
 
     const Phase& phase_;
-    const Setting& setting_;
+    const TraceContext& context_;
     const Plan& plan_;
     const ForwardMaps& maps_;
     const Radii& hidden_radii_;
@@ -255,11 +255,11 @@ private:
 
 }  // namespace
 
-void trace_in_groups(const Phase& phase, const Setting& setting, const Plan& plan,
+void trace_in_groups(const Phase& phase, const TraceContext& context, const Plan& plan,
                      std::span<const BinBlock> blocks, const ForwardMaps& maps,
                      const Radii& hidden_radii, PhaseTrace& trace) {
     const Stopwatch watch;
-    Groups(phase, setting, plan, blocks, maps, hidden_radii, trace).run();
+    Groups(phase, context, plan, blocks, maps, hidden_radii, trace).run();
     trace.counts.secondary_s += watch.seconds();
 }
 

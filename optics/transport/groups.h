@@ -10,7 +10,7 @@ namespace lucerna::optics {
 /// wait for each other before all of the phase is done. Each map takes a number of rays that is
 /// fixed beforehand, of whichever group: what it reads is normalised by that number, and no
 /// schedule can bias it. Which rays those are depends on the threads, and so do the bits.
-void trace_in_groups(const Phase& phase, const Setting& setting, const Plan& plan,
+void trace_in_groups(const Phase& phase, const TraceContext& context, const Plan& plan,
                      std::span<const BinBlock> blocks, const ForwardMaps& maps,
                      const Radii& hidden_radii, PhaseTrace& trace);
 

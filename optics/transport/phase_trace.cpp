@@ -16,42 +16,42 @@ std::uint32_t block_count(std::uint32_t rays) {
 }
 
 // The photons of one history: caustics need no path beyond the first scattering event.
-ForwardMap forward_map(const Phase& phase, const Setting& setting, History history,
+ForwardMap forward_map(const Phase& phase, const TraceContext& context, History history,
                        std::uint32_t rays, const Radii& radii, ForwardTally& tally,
                        RayCounts& counts) {
     const bool caustic = history == History::caustic;
     const Stopwatch watch;
     const std::vector<Photon> photons = trace_photons(
-        phase, setting, caustic ? RandomPurpose::caustic : RandomPurpose::indirect,
+        phase, context, caustic ? RandomPurpose::caustic : RandomPurpose::indirect,
         caustic ? Reach::first_scattering : Reach::whole_path, mask(history), rays, tally);
     counts.caustic_s += watch.seconds();
     counts.caustic_rays += rays;
     counts.forward_photons += photons.size();
     counts.forward_segments += tally.segments;
     const Stopwatch map_watch;
-    ForwardMap map(setting.stage, radii, photons, rays, setting.threads);
+    ForwardMap map(context.stage, radii, photons, rays, context.threads);
     counts.maps_s += map_watch.seconds();
     return map;
 }
 
-ForwardMaps forward_maps(const Phase& phase, const Setting& setting, const Plan& plan,
+ForwardMaps forward_maps(const Phase& phase, const TraceContext& context, const Plan& plan,
                          std::uint32_t radii_of, PhaseTrace& trace) {
     ForwardMaps maps;
     const auto gathers = [&](History history) {
-        return plan.gathers(setting.stage, setting.planes, history);
+        return plan.gathers(context.stage, context.planes, history);
     };
     if (gathers(History::caustic)) {
         maps.caustic_radii = plan.caustic_radii.at_phase(radii_of);
-        ForwardTally unused(setting.stage.parts());
-        maps.caustic = forward_map(phase, setting, History::caustic, plan.caustic_rays,
+        ForwardTally unused(context.stage.parts());
+        maps.caustic = forward_map(phase, context, History::caustic, plan.caustic_rays,
                                    maps.caustic_radii, unused, trace.counts);
     }
     if (gathers(History::indirect)) {
         maps.indirect_radii = plan.indirect_radii.at_phase(radii_of);
-        ForwardTally tally(setting.stage.parts());
-        maps.indirect = forward_map(phase, setting, History::indirect, plan.indirect_rays,
+        ForwardTally tally(context.stage.parts());
+        maps.indirect = forward_map(phase, context, History::indirect, plan.indirect_rays,
                                     maps.indirect_radii, tally, trace.counts);
-        if (!plan.traces_secondary(setting.stage, setting.planes)) {
+        if (!plan.traces_secondary(context.stage, context.planes)) {
             trace.tally = tally;
             trace.balance_rays = plan.indirect_rays;
         }
@@ -62,17 +62,17 @@ ForwardMaps forward_maps(const Phase& phase, const Setting& setting, const Plan&
 
 // Secondary rays, and what they deposit. Without backward photons (path tracing) they serve
 // receivers and flux balance.
-void deposit(const Phase& phase, const Setting& setting, std::uint32_t rays, BackwardMap& map,
+void deposit(const Phase& phase, const TraceContext& context, std::uint32_t rays, BackwardMap& map,
              PhaseTrace& trace) {
     const std::uint32_t blocks = block_count(rays);
-    const bool locked = setting.scheduler == Scheduler::synchronous;
+    const bool locked = context.scheduler == Scheduler::synchronous;
     for (std::uint32_t chunk = 0; chunk < blocks; chunk += blocks_per_chunk) {
         const std::uint32_t count = std::min(blocks_per_chunk, blocks - chunk);
         std::vector<BackwardMap::Deposits> deposits(locked ? 0 : count);
-        std::vector<ForwardTally> tallies(count, ForwardTally(setting.stage.parts()));
+        std::vector<ForwardTally> tallies(count, ForwardTally(context.stage.parts()));
         std::vector<std::uint64_t> hits(count),
             applied(std::max<std::size_t>(count, BackwardMap::parts));
-        for_each_block(count, setting.threads, [&](std::size_t block) {
+        for_each_block(count, context.threads, [&](std::size_t block) {
             const std::uint32_t first =
                 (chunk + static_cast<std::uint32_t>(block)) * forward_rays_per_block;
             for (std::uint32_t i = first; i < std::min(rays, first + forward_rays_per_block); ++i) {
@@ -88,7 +88,7 @@ void deposit(const Phase& phase, const Setting& setting, std::uint32_t rays, Bac
             }
         });
         if (!locked) {
-            for_each_block(BackwardMap::parts, setting.threads,
+            for_each_block(BackwardMap::parts, context.threads,
                            [&](std::size_t part) { applied[part] = map.apply(part, deposits); });
         }
         for (std::uint32_t block = 0; block < count; ++block) {
@@ -115,16 +115,16 @@ bool Plan::traces_secondary(const Stage& stage, const SensorPlanes& planes) cons
     return collections.deposit() || !gathers(stage, planes, History::indirect);
 }
 
-std::vector<Photon> trace_photons(const Phase& phase, const Setting& setting, RandomPurpose purpose,
-                                  Reach reach, std::uint8_t histories, std::uint32_t rays,
-                                  ForwardTally& tally) {
+std::vector<Photon> trace_photons(const Phase& phase, const TraceContext& context,
+                                  RandomPurpose purpose, Reach reach, std::uint8_t histories,
+                                  std::uint32_t rays, ForwardTally& tally) {
     const std::uint32_t blocks = block_count(rays);
     std::vector<std::vector<Photon>> photons(blocks);
-    std::vector<ForwardTally> tallies(blocks, ForwardTally(setting.stage.parts()));
-    for_each_block(blocks, setting.threads, [&](std::size_t block) {
+    std::vector<ForwardTally> tallies(blocks, ForwardTally(context.stage.parts()));
+    for_each_block(blocks, context.threads, [&](std::size_t block) {
         const auto first = static_cast<std::uint32_t>(block) * forward_rays_per_block;
         for (std::uint32_t i = first; i < std::min(rays, first + forward_rays_per_block); ++i) {
-            trace_forward(phase, purpose, i, reach, &setting.planes, tallies[block],
+            trace_forward(phase, purpose, i, reach, &context.planes, tallies[block],
                           [&](const Photon& photon) {
                               if (histories & mask(photon.history)) {
                                   photons[block].push_back(photon);
@@ -138,35 +138,35 @@ std::vector<Photon> trace_photons(const Phase& phase, const Setting& setting, Ra
         tally += tallies[block];
     }
     std::vector<Photon> all(starts.back());
-    for_each_block(blocks, setting.threads, [&](std::size_t block) {
+    for_each_block(blocks, context.threads, [&](std::size_t block) {
         std::copy(photons[block].begin(), photons[block].end(),
                   all.begin() + static_cast<std::ptrdiff_t>(starts[block]));
     });
     return all;
 }
 
-void trace_phase(const Phase& phase, const Setting& setting, const Plan& plan,
+void trace_phase(const Phase& phase, const TraceContext& context, const Plan& plan,
                  std::span<const BinBlock> blocks, std::uint32_t radii_of, PhaseTrace& trace) {
-    const ForwardMaps maps = forward_maps(phase, setting, plan, radii_of, trace);
+    const ForwardMaps maps = forward_maps(phase, context, plan, radii_of, trace);
     const Radii hidden_radii = plan.hidden_radii.at_phase(radii_of);
-    const bool secondary = plan.traces_secondary(setting.stage, setting.planes);
+    const bool secondary = plan.traces_secondary(context.stage, context.planes);
     for (const BinBlock& block : blocks) {
         trace.counts.backward_rays +=
             (block.last - block.first) *
-            setting.readings.observers()[block.observer_bins].samples_per_bin;
+            context.readings.observers()[block.observer_bins].samples_per_bin;
     }
-    if (secondary && setting.scheduler == Scheduler::two_level) {
-        trace_in_groups(phase, setting, plan, blocks, maps, hidden_radii, trace);
+    if (secondary && context.scheduler == Scheduler::two_level) {
+        trace_in_groups(phase, context, plan, blocks, maps, hidden_radii, trace);
         return;
     }
 
     const Stopwatch backward_watch;
     std::vector<std::vector<BackwardPhoton>> stored(blocks.size());
     std::vector<BackwardTally> backward_tallies(blocks.size());
-    for_each_block(blocks.size(), setting.threads, [&](std::size_t i) {
+    for_each_block(blocks.size(), context.threads, [&](std::size_t i) {
         stored[i] = trace_backward(phase, plan.collections,
-                                   setting.readings.observers()[blocks[i].observer_bins], blocks[i],
-                                   setting.planes, maps, trace.readings, backward_tallies[i]);
+                                   context.readings.observers()[blocks[i].observer_bins], blocks[i],
+                                   context.planes, maps, trace.readings, backward_tallies[i]);
     });
     trace.counts.backward_s += backward_watch.seconds();
     for (const BackwardTally& block : backward_tallies) {
@@ -176,15 +176,15 @@ void trace_phase(const Phase& phase, const Setting& setting, const Plan& plan,
     if (!secondary) return;
 
     const Stopwatch map_watch;
-    BackwardMap map(phase, hidden_radii, std::move(stored), setting.threads);
+    BackwardMap map(phase, hidden_radii, std::move(stored), context.threads);
     trace.counts.maps_s += map_watch.seconds();
     trace.counts.backward_photons += map.size();
     trace.backward_map_bytes = map.bytes();
     const Stopwatch watch;
-    deposit(phase, setting, plan.secondary_rays, map, trace);
+    deposit(phase, context, plan.secondary_rays, map, trace);
     trace.counts.secondary_s += watch.seconds();
     const Stopwatch read_watch;
-    for_each_block(blocks.size(), setting.threads, [&](std::size_t i) {
+    for_each_block(blocks.size(), context.threads, [&](std::size_t i) {
         map.read(i, plan.secondary_rays,
                  [&](std::uint32_t bin, const Lanes& radiance, const Lanes& bias) {
                      trace.readings.add(phase, bin, radiance, bias);

@@ -32,7 +32,7 @@ struct Plan {
 };
 
 /// What stays the same for all phases, pilot phases included.
-struct Setting {
+struct TraceContext {
     const Stage& stage;
     const SensorPlanes& planes;
     const Readings& readings;  ///< their bins, not their values
@@ -42,8 +42,8 @@ struct Setting {
 
 /// What a phase leaves behind.
 struct PhaseTrace {
-    explicit PhaseTrace(const Setting& setting)
-        : readings(setting.readings.new_phase()), tally(setting.stage.parts()) {}
+    explicit PhaseTrace(const TraceContext& context)
+        : readings(context.readings.new_phase()), tally(context.stage.parts()) {}
 
     PhaseReadings readings;
     ForwardTally tally;              ///< of the rays that the flux balance is taken from
@@ -53,12 +53,12 @@ struct PhaseTrace {
 };
 
 /// Photons of the given histories, or-ed, of the rays of a forward trace, in the order of the rays.
-std::vector<Photon> trace_photons(const Phase& phase, const Setting& setting, RandomPurpose purpose,
-                                  Reach reach, std::uint8_t histories, std::uint32_t rays,
-                                  ForwardTally& tally);
+std::vector<Photon> trace_photons(const Phase& phase, const TraceContext& context,
+                                  RandomPurpose purpose, Reach reach, std::uint8_t histories,
+                                  std::uint32_t rays, ForwardTally& tally);
 
 /// Traces a phase for some blocks of bins, with kernels as narrow as in phase number `radii_of`.
-void trace_phase(const Phase& phase, const Setting& setting, const Plan& plan,
+void trace_phase(const Phase& phase, const TraceContext& context, const Plan& plan,
                  std::span<const BinBlock> blocks, std::uint32_t radii_of, PhaseTrace& trace);
 
 }  // namespace lucerna::optics

@@ -35,15 +35,15 @@ std::uint32_t at_least_min(std::uint64_t rays) {
     return static_cast<std::uint32_t>(std::max<std::uint64_t>(min_forward_rays, rays));
 }
 
-bool is_camera(const Setting& setting, const ObserverBins& bins) {
-    return std::holds_alternative<Camera>(setting.stage.parts().observers[bins.observer]);
+bool is_camera(const TraceContext& context, const ObserverBins& bins) {
+    return std::holds_alternative<Camera>(context.stage.parts().observers[bins.observer]);
 }
 
-double photons_per_wide_kernel(const Setting& setting) {
+double photons_per_wide_kernel(const TraceContext& context) {
     std::uint32_t rays = 1;
-    for (const ObserverBins& bins : setting.readings.observers()) {
-        if (is_camera(setting, bins)) {
-            const Observer& observer = setting.stage.parts().observers[bins.observer];
+    for (const ObserverBins& bins : context.readings.observers()) {
+        if (is_camera(context, bins)) {
+            const Observer& observer = context.stage.parts().observers[bins.observer];
             rays = std::max(rays, bins.samples_per_bin / gathers_of_bin(bins, observer));
         }
     }
@@ -51,8 +51,8 @@ double photons_per_wide_kernel(const Setting& setting) {
 }
 
 // Radii and rays of the maps, from the rays of a pilot phase.
-void choose_radii(const Setting& setting, const Settings& settings, Plan& plan) {
-    const Stage& stage = setting.stage;
+void choose_radii(const TraceContext& context, const Settings& settings, Plan& plan) {
+    const Stage& stage = context.stage;
     const Phase phase(stage, settings.seed, pilot_phase);
     ForwardTally unused(stage.parts());
     constexpr std::uint8_t all =
@@ -60,7 +60,7 @@ void choose_radii(const Setting& setting, const Settings& settings, Plan& plan) 
     const std::uint32_t rays = std::clamp(std::max(plan.caustic_rays, plan.secondary_rays),
                                           min_pilot_rays, max_pilot_rays);
     const PilotPhotons photons{
-        trace_photons(phase, setting, RandomPurpose::pilot, Reach::whole_path, all, rays, unused),
+        trace_photons(phase, context, RandomPurpose::pilot, Reach::whole_path, all, rays, unused),
         rays};
     const auto of = [&](History history) {
         PilotPhotons some{{}, rays};
@@ -75,25 +75,25 @@ void choose_radii(const Setting& setting, const Settings& settings, Plan& plan) 
         return std::holds_alternative<LuminanceMeter>(o);
     });
     plan.caustic_radii =
-        narrow_radii(stage, setting.planes, of(History::caustic),
+        narrow_radii(stage, context.planes, of(History::caustic),
                      {meters ? photons_per_kernel_of_meters : photons_per_kernel_of_images,
                       photons_per_sensor_kernel},
                      plan.caustic_rays, true);
-    plan.hidden_radii = narrow_radii(stage, setting.planes, photons,
+    plan.hidden_radii = narrow_radii(stage, context.planes, photons,
                                      {photons_per_hidden_kernel, photons_per_hidden_kernel},
                                      plan.secondary_rays, false);
     const PilotPhotons indirect = of(History::indirect);
-    plan.indirect_radii = wide_radii(stage, setting.planes, indirect);
+    plan.indirect_radii = wide_radii(stage, context.planes, indirect);
     plan.indirect_rays = settings.forward_rays.value_or(
-        std::clamp(rays_for(stage, indirect, plan.indirect_radii, photons_per_wide_kernel(setting)),
-                   min_forward_rays, at_least_min(setting.readings.samples_per_phase())));
+        std::clamp(rays_for(stage, indirect, plan.indirect_radii, photons_per_wide_kernel(context)),
+                   min_forward_rays, at_least_min(context.readings.samples_per_phase())));
 }
 
 // Blocks spread evenly over all images.
-std::vector<BinBlock> some_of_images(const Setting& setting) {
+std::vector<BinBlock> some_of_images(const TraceContext& context) {
     std::vector<BinBlock> of_images;
-    for (const BinBlock& block : setting.readings.blocks()) {
-        if (is_camera(setting, setting.readings.observers()[block.observer_bins])) {
+    for (const BinBlock& block : context.readings.blocks()) {
+        if (is_camera(context, context.readings.observers()[block.observer_bins])) {
             of_images.push_back(block);
         }
     }
@@ -107,19 +107,20 @@ std::vector<BinBlock> some_of_images(const Setting& setting) {
 
 // Which of both ways to collect indirect light has less noise in a phase: the variance over pilot
 // phases of the same pixels, that of emission and direct light apart.
-void choose_collection_of_images(const Setting& setting, const Settings& settings, Plan& plan) {
-    const std::vector<BinBlock> blocks = some_of_images(setting);
+void choose_collection_of_images(const TraceContext& context, const Settings& settings,
+                                 Plan& plan) {
+    const std::vector<BinBlock> blocks = some_of_images(context);
     if (blocks.empty()) return;
     const auto noise = [&](const Collection& collection, std::uint32_t indirect_rays) {
         Plan pilot = plan;
         pilot.collections = {collection, collection};
         pilot.indirect_rays = indirect_rays;
-        Readings readings = setting.readings;
-        PhaseTrace trace(setting);
+        Readings readings = context.readings;
+        PhaseTrace trace(context);
         for (std::uint32_t i = 1; i <= pilot_phases; ++i) {
-            const Phase phase(setting.stage, settings.seed, pilot_phase - i);
-            trace_phase(phase, setting, pilot, blocks, 0, trace);
-            readings.fold(phase, trace.readings, setting.threads);
+            const Phase phase(context.stage, settings.seed, pilot_phase - i);
+            trace_phase(phase, context, pilot, blocks, 0, trace);
+            readings.fold(phase, trace.readings, context.threads);
         }
         return readings.image_variance();
     };
@@ -138,19 +139,24 @@ void choose_collection_of_images(const Setting& setting, const Settings& setting
 
 }  // namespace
 
-Plan make_plan(const Setting& setting, const Settings& settings) {
+Plan make_plan(const TraceContext& context, const Settings& settings) {
     Plan plan;
     const Collection collection = Collection::of(settings.method, settings.planted_error);
     plan.collections = {collection, collection};
-    const std::uint64_t samples = setting.readings.samples_per_phase();
+    const std::uint64_t samples = context.readings.samples_per_phase();
     plan.caustic_rays =
         settings.forward_rays.value_or(at_least_min(samples / backward_per_caustic_ray));
     plan.secondary_rays =
         settings.forward_rays.value_or(at_least_min(samples / backward_per_secondary_ray));
-    plan.observed = !setting.readings.blocks().empty();
+    plan.observed = !context.readings.blocks().empty();
     if (!plan.observed) return plan;
-    choose_radii(setting, settings, plan);
-    if (settings.method == Method::automatic) choose_collection_of_images(setting, settings, plan);
+    choose_radii(context, settings, plan);
+    if (settings.method == Method::automatic) choose_collection_of_images(context, settings, plan);
+    const auto& observers = context.readings.observers();
+    const bool only_cameras =
+        std::all_of(observers.begin(), observers.end(),
+                    [&](const auto& bins) { return is_camera(context, bins); });
+    if (only_cameras) plan.collections.sensors = plan.collections.cameras;
     return plan;
 }
 

@@ -7,6 +7,6 @@ namespace lucerna::optics {
 
 /// Traces pilot phases, whose readings are not used for anything else: else the choice would bias
 /// the result (DESIGN decision 1).
-Plan make_plan(const Setting& setting, const Settings& settings);
+Plan make_plan(const TraceContext& context, const Settings& settings);
 
 }  // namespace lucerna::optics

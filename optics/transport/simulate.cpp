@@ -22,9 +22,9 @@ public:
           lanes_(settings.scheduler == Scheduler::asynchronous ? threads_ : 1),
           planes_(stage_.parts(), stage_.caster(), stage_.caster().scene_radius_m() / 6.0),
           readings_(parts, settings),
-          setting_{stage_, planes_, readings_, settings.scheduler, threads_},
+          context_{stage_, planes_, readings_, settings.scheduler, threads_},
           setup_s_(construction_watch_.seconds()),
-          plan_(make_plan(setting_, settings)),
+          plan_(make_plan(context_, settings)),
           total_(stage_.parts()),
           received_(2 * parts.receivers.size()) {
         for (const FluxReceiver& receiver : parts.receivers) {
@@ -37,12 +37,12 @@ public:
     /// Phases that are traced at the same time.
     int lanes() const { return lanes_; }
     Phase phase(std::uint32_t number) const { return {stage_, settings_.seed, number}; }
-    PhaseTrace new_trace() const { return PhaseTrace(setting_); }
+    PhaseTrace new_trace() const { return PhaseTrace(context_); }
 
     void trace(const Phase& phase, PhaseTrace& trace) const {
-        Setting setting = setting_;
-        setting.threads = threads_ / lanes_;
-        trace_phase(phase, setting, plan_, readings_.blocks(), phase.number, trace);
+        TraceContext context = context_;
+        context.threads = threads_ / lanes_;
+        trace_phase(phase, context, plan_, readings_.blocks(), phase.number, trace);
     }
 
     /// Adds a phase to the estimates and empties its trace.
@@ -164,7 +164,7 @@ private:
     int threads_, lanes_;
     SensorPlanes planes_;
     Readings readings_;
-    Setting setting_;
+    TraceContext context_;
     double setup_s_;
     Plan plan_;
     ForwardTally total_;              // over phases

@@ -177,3 +177,28 @@ TEST_CASE("Furnace: things of all shapes in a room", "[analytic]") {
     scene.meter(eye, aside * Vec3(0.07, 0.05, 0.1), 0.15);
     check_furnace(scene, rho, Method::combined, {128, 6000});
 }
+
+TEST_CASE("Furnace: a large image, where a ray gathers for others of its pixel", "[analytic]") {
+    // 4 of 8 rays of a pixel gather, both behind a mirror and straight on; the rims of the two
+    // balls are pixels with several surfaces.
+    const double rho = 0.7;
+    const int pixels = 128;
+    SceneBuilder scene = shell(Sphere{Vec3::Zero(), 1.0}, rho);
+    scene.area_light(
+        scene.object("painted ball", Sphere{{0.3, 0.0, 0.0}, 0.25}, scene.diffuse(rho)), emitted);
+    scene.object("mirror ball", Sphere{{-0.3, 0.0, 0.0}, 0.25}, scene.mirror(1.0));
+    scene.camera({0.0, -0.9, 0.0}, Vec3::Zero(), Vec3::UnitZ(), 1.1, pixels, pixels);
+    const Result result = test::run(scene, Method::forward, {6, 20000, 8});
+    const double truth = emitted / (1.0 - rho);
+    const Image& image = result.images.front();
+    test::check_mean(image.mean.value(), image.mean.standard_error(), truth, {0.05});
+    test::check_refutes(image.mean, 1.05 * truth);
+    // What the other rays of a pixel leave out would be a third of the luminance. Each place by
+    // itself: the mirror ball, the painted one, and the wall above them.
+    const int tiles = pixels / Image::tile_size;
+    for (const auto& [column, row] : {std::pair(2, 4), std::pair(5, 4), std::pair(4, 0)}) {
+        INFO("tile " << column << ", " << row);
+        const Estimate& tile = image.tiles[static_cast<std::size_t>(row * tiles + column)];
+        test::check_mean(tile.value(), tile.standard_error(), truth, {0.25});
+    }
+}

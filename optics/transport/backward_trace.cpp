@@ -34,27 +34,34 @@ public:
     }
 
     /// All rays of a bin.
-    void trace(const ObserverBins& bins, std::size_t bin) {
+    void trace(const ObserverBins& bins, std::size_t bin, const BinRays& rays, RaySums* sums) {
         bin_ = static_cast<std::uint32_t>(bins.first_bin + bin);
-        const std::uint32_t samples = bins.samples_per_bin;
         const Observer& observer = phase_.stage.parts().observers[bins.observer];
         if (std::holds_alternative<IlluminancePoints>(observer)) {
             media_of_observer_ = phase_.stage.media_at(planes_.point(bins.observer, bin).position);
         }
         const std::uint32_t set =
             RandomStream(phase_.seed, phase_.number, RandomPurpose::strata, bin_).bits();
-        const std::uint32_t gathers = gathers_of_bin(bins, observer);
-        rays_per_gather_ = samples / gathers;
+        rays_ = rays;
+        const std::uint32_t gathers = rays.count / rays.per_gather;
         seen_.clear();
-        for (std::uint32_t sample = 0; sample < samples; ++sample) {
-            const auto path_number =
-                static_cast<std::uint32_t>(bins.first_path + bin * samples + sample);
+        for (std::uint32_t ray = 0; ray < rays.count; ++ray) {
             StratifiedStream random(
-                {phase_.seed, phase_.number, RandomPurpose::backward, path_number},
-                {set, sample, samples});
+                {phase_.seed, phase_.number, RandomPurpose::backward, rays.first_path + ray},
+                {set, ray, rays.count});
             specular_gather_weight_ =
-                sample < gathers ? static_cast<float>(samples) / static_cast<float>(gathers) : 0.0f;
-            trace(bins, bin, sample, random);
+                ray < gathers ? static_cast<float>(rays.count) / static_cast<float>(gathers) : 0.0f;
+            const double before = readings_.luminance(bin_);
+            const std::uint64_t segments = tally_.segments + tally_.shadow_segments;
+            trace(bins, bin, ray, random);
+            if (sums) {
+                const double luminance = rays.count * (readings_.luminance(bin_) - before);
+                sums->rays += 1.0;
+                sums->luminance += luminance;
+                sums->square += luminance * luminance;
+                sums->segments +=
+                    static_cast<double>(tally_.segments + tally_.shadow_segments - segments);
+            }
         }
     }
 
@@ -65,7 +72,7 @@ private:
         specular_since_ = false;
         path_.start.object = no_object;
         path_.media = media_of_observer_;
-        path_.weight = Lanes::Constant(1.0f / static_cast<float>(bins.samples_per_bin));
+        path_.weight = Lanes::Constant(1.0f / static_cast<float>(rays_.count));
         path_.hero_only = false;
         path_.hero = phase_.wavelengths.hero;
         path_.lossless_events = 0;
@@ -266,7 +273,7 @@ private:
             }
             return;
         }
-        if (rays_per_gather_ == 1) return gather(at, histories, path_.weight);
+        if (rays_.per_gather == 1) return gather(at, histories, path_.weight);
         const std::uint32_t patch = kernel_patch(phase_.stage, at.point);
         const bool above = at.wo.z() > 0.0;
         auto seen = std::find_if(seen_.begin(), seen_.end(), [&](const Seen& s) {
@@ -277,7 +284,7 @@ private:
             seen = seen_.end() - 1;
         }
         if (seen->rays_left == 0) {
-            seen->rays_left = rays_per_gather_;
+            seen->rays_left = rays_.per_gather;
             seen->gathered = gathered(at, histories);
         }
         --seen->rays_left;
@@ -325,6 +332,7 @@ private:
 
     Path path_;
     std::uint32_t bin_ = 0;
+    BinRays rays_{};  // of the bin
     struct Branch {
         Path path;
         double importance;
@@ -340,7 +348,6 @@ private:
         Gathered gathered;
     };
     std::vector<Seen, Eigen::aligned_allocator<Seen>> seen_;  // by the rays of the bin
-    std::uint32_t rays_per_gather_ = 1;
     float specular_gather_weight_ = 1.0f;  // 0: the ray does not gather behind specular events
     double importance_ = 1.0;  // share of the path's weight that its branches left to it
     int scatterings_ = 0;
@@ -350,13 +357,6 @@ private:
 };
 
 }  // namespace
-
-std::uint32_t gathers_of_bin(const ObserverBins& bins, const Observer& observer) {
-    constexpr std::size_t gathers_of_image = 1 << 16;
-    if (!std::holds_alternative<Camera>(observer)) return bins.samples_per_bin;
-    return static_cast<std::uint32_t>(
-        std::clamp<std::size_t>(gathers_of_image / bins.count, 1, bins.samples_per_bin));
-}
 
 Collection Collection::of(Method method, PlantedError planted) {
     constexpr std::uint8_t caustic = mask(History::caustic);
@@ -391,15 +391,19 @@ Collection Collection::merged_where_seen() {
 }
 
 std::vector<BackwardPhoton> trace_backward(const Phase& phase, const Collections& collections,
-                                           const ObserverBins& bins, const BinBlock& block,
-                                           const SensorPlanes& planes, const ForwardMaps& maps,
-                                           PhaseReadings& readings, BackwardTally& tally) {
+                                           const ObserverBins& bins, const BackwardRays& rays,
+                                           const BinBlock& block, const SensorPlanes& planes,
+                                           const ForwardMaps& maps, PhaseReadings& readings,
+                                           BackwardTally& tally, std::vector<RaySums>* sums) {
     std::vector<BackwardPhoton> stored;
     const bool camera =
         std::holds_alternative<Camera>(phase.stage.parts().observers[bins.observer]);
     BackwardRay ray(phase, camera ? collections.cameras : collections.sensors, bins, planes, maps,
                     readings, tally, stored);
-    for (std::size_t bin = block.first; bin < block.last; ++bin) ray.trace(bins, bin);
+    for (std::size_t bin = block.first; bin < block.last; ++bin) {
+        ray.trace(bins, bin, rays.of(block.observer_bins, bin),
+                  sums ? &(*sums)[bins.first_bin + bin] : nullptr);
+    }
     return stored;
 }
 

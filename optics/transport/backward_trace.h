@@ -2,15 +2,11 @@
 #pragma once
 
 #include "optics/transport/backward_map.h"
+#include "optics/transport/backward_rays.h"
 #include "optics/transport/direct_light.h"
 #include "optics/transport/readings.h"
 
 namespace lucerna::optics {
-
-/// Number of rays of a bin that gather photons where all of them see the same surface: in a large
-/// image kernels are wider than pixels, and what the other rays of a pixel would find is nearly the
-/// same.
-std::uint32_t gathers_of_bin(const ObserverBins& bins, const Observer& observer);
 
 /// Which estimator takes which light: every path of light must be counted exactly once.
 ///
@@ -24,6 +20,11 @@ struct Collection {
     bool whole_path = false;                ///< path tracing: direct light at every v, no maps
     bool emission_behind_specular = false;  ///< L S+ D ... E found by the ray itself
 
+    bool deposits() const { return first_deposit || second_deposit; }
+
+    /// Whether its rays go on to a second scattering event, which brings noise to all pixels.
+    bool reaches_second_event() const { return second_deposit || whole_path; }
+
     static Collection of(Method method, PlantedError planted);
     /// Of images under Method::automatic where kernels at seen surfaces have less noise than rays
     /// to a second scattering event: indirect light is gathered where it is seen.
@@ -34,10 +35,7 @@ struct Collection {
 struct Collections {
     Collection cameras, sensors;
 
-    bool deposit() const {
-        return cameras.first_deposit || cameras.second_deposit || sensors.first_deposit ||
-               sensors.second_deposit;
-    }
+    bool deposits() const { return cameras.deposits() || sensors.deposits(); }
 };
 
 struct BackwardTally {
@@ -47,9 +45,12 @@ struct BackwardTally {
 /// Traces the backward rays of a block of bins of an observer: adds visible emission, direct and
 /// gathered light to the readings and returns the backward photons. Unbiased but for the kernels of
 /// the maps.
+/// @param sums  if given, of the single rays of all bins: what they read without later deposits.
 std::vector<BackwardPhoton> trace_backward(const Phase& phase, const Collections& collections,
-                                           const ObserverBins& bins, const BinBlock& block,
-                                           const SensorPlanes& planes, const ForwardMaps& maps,
-                                           PhaseReadings& readings, BackwardTally& tally);
+                                           const ObserverBins& bins, const BackwardRays& rays,
+                                           const BinBlock& block, const SensorPlanes& planes,
+                                           const ForwardMaps& maps, PhaseReadings& readings,
+                                           BackwardTally& tally,
+                                           std::vector<RaySums>* sums = nullptr);
 
 }  // namespace lucerna::optics

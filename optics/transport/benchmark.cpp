@@ -52,7 +52,7 @@ public:
 
     BackwardMapRates backward_map() {
         BackwardMapRates rates;
-        const auto vertices = trace(readings_.blocks(), to_second_event, context_.threads);
+        const auto vertices = trace(plan_.rays.blocks(), to_second_event, context_.threads);
         for (const auto& block : vertices) rates.build.items += block.size();
         if (rates.build.items == 0) return rates;
         const auto photons = arrivals(plan_.secondary_rays, context_.threads, true);
@@ -81,7 +81,7 @@ public:
 
     ForwardMapRates forward_map(History history) {
         ForwardMapRates rates;
-        if (readings_.blocks().empty()) return rates;
+        if (!plan_.observed) return rates;
         const bool caustic = history == History::caustic;
         const Radii& radii = caustic ? plan_.caustic_radii : plan_.indirect_radii;
         const std::uint32_t rays = caustic ? plan_.caustic_rays : plan_.indirect_rays;
@@ -169,11 +169,11 @@ private:
 
     // Blocks from all over the observers, with about the number of paths asked for.
     std::vector<BinBlock> some_blocks() const {
-        const std::vector<BinBlock>& all = readings_.blocks();
+        const std::vector<BinBlock>& all = plan_.rays.blocks();
         std::vector<BinBlock> some;
         if (all.empty()) return some;
-        const double share = std::min(1.0, static_cast<double>(effort_.paths) /
-                                               static_cast<double>(readings_.samples_per_phase()));
+        const double share = std::min(
+            1.0, static_cast<double>(effort_.paths) / static_cast<double>(plan_.rays.per_phase()));
         const auto count = std::max<std::size_t>(
             1, static_cast<std::size_t>(share * static_cast<double>(all.size())));
         for (std::size_t i = 0; i < count; ++i) some.push_back(all[i * all.size() / count]);
@@ -187,8 +187,8 @@ private:
         for_each_block(blocks.size(), threads, [&](std::size_t i) {
             BackwardTally tally;
             stored[i] = trace_backward(phase_, {collection, collection},
-                                       readings_.observers()[blocks[i].observer_bins], blocks[i],
-                                       planes_, no_maps, values_, tally);
+                                       readings_.observers()[blocks[i].observer_bins], plan_.rays,
+                                       blocks[i], planes_, no_maps, values_, tally);
         });
         return stored;
     }

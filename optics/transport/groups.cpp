@@ -171,7 +171,7 @@ private:
             const BinBlock& block = group.blocks[i];
             group.stored[i] = trace_backward(
                 phase_, plan_.collections, context_.readings.observers()[block.observer_bins],
-                block, context_.planes, maps_, trace_.readings, group.tallies[i]);
+                plan_.rays, block, context_.planes, maps_, trace_.readings, group.tallies[i]);
         }
         group.meeting.arrive_and_wait();
         if (owner) {

@@ -112,7 +112,7 @@ bool Plan::gathers(const Stage& stage, const SensorPlanes& planes, History histo
 }
 
 bool Plan::traces_secondary(const Stage& stage, const SensorPlanes& planes) const {
-    return collections.deposit() || !gathers(stage, planes, History::indirect);
+    return collections.deposits() || !gathers(stage, planes, History::indirect);
 }
 
 std::vector<Photon> trace_photons(const Phase& phase, const TraceContext& context,
@@ -145,15 +145,30 @@ std::vector<Photon> trace_photons(const Phase& phase, const TraceContext& contex
     return all;
 }
 
+std::vector<RaySums> trace_single_rays(const Phase& phase, const TraceContext& context,
+                                       const Plan& plan) {
+    PhaseTrace trace(context);
+    const ForwardMaps maps = forward_maps(phase, context, plan, 0, trace);
+    std::vector<RaySums> sums(context.readings.bin_count());
+    const std::vector<BinBlock>& blocks = plan.rays.blocks();
+    for_each_block(blocks.size(), context.threads, [&](std::size_t i) {
+        BackwardTally unused;
+        trace_backward(phase, plan.collections,
+                       context.readings.observers()[blocks[i].observer_bins], plan.rays, blocks[i],
+                       context.planes, maps, trace.readings, unused, &sums);
+    });
+    return sums;
+}
+
 void trace_phase(const Phase& phase, const TraceContext& context, const Plan& plan,
                  std::span<const BinBlock> blocks, std::uint32_t radii_of, PhaseTrace& trace) {
     const ForwardMaps maps = forward_maps(phase, context, plan, radii_of, trace);
     const Radii hidden_radii = plan.hidden_radii.at_phase(radii_of);
     const bool secondary = plan.traces_secondary(context.stage, context.planes);
     for (const BinBlock& block : blocks) {
-        trace.counts.backward_rays +=
-            (block.last - block.first) *
-            context.readings.observers()[block.observer_bins].samples_per_bin;
+        for (std::size_t bin = block.first; bin < block.last; ++bin) {
+            trace.counts.backward_rays += plan.rays.of(block.observer_bins, bin).count;
+        }
     }
     if (secondary && context.scheduler == Scheduler::two_level) {
         trace_in_groups(phase, context, plan, blocks, maps, hidden_radii, trace);
@@ -164,9 +179,9 @@ void trace_phase(const Phase& phase, const TraceContext& context, const Plan& pl
     std::vector<std::vector<BackwardPhoton>> stored(blocks.size());
     std::vector<BackwardTally> backward_tallies(blocks.size());
     for_each_block(blocks.size(), context.threads, [&](std::size_t i) {
-        stored[i] = trace_backward(phase, plan.collections,
-                                   context.readings.observers()[blocks[i].observer_bins], blocks[i],
-                                   context.planes, maps, trace.readings, backward_tallies[i]);
+        stored[i] = trace_backward(
+            phase, plan.collections, context.readings.observers()[blocks[i].observer_bins],
+            plan.rays, blocks[i], context.planes, maps, trace.readings, backward_tallies[i]);
     });
     trace.counts.backward_s += backward_watch.seconds();
     for (const BackwardTally& block : backward_tallies) {

@@ -18,6 +18,7 @@ inline constexpr std::uint32_t forward_rays_per_block = 256;
 
 /// What is chosen before the first phase and then kept: it must not follow what phases find.
 struct Plan {
+    BackwardRays rays;
     Collections collections;
     std::uint32_t caustic_rays = 0, indirect_rays = 0;  ///< of the forward maps, per phase
     std::uint32_t secondary_rays = 0;                   ///< that deposit in the backward map
@@ -56,6 +57,10 @@ struct PhaseTrace {
 std::vector<Photon> trace_photons(const Phase& phase, const TraceContext& context,
                                   RandomPurpose purpose, Reach reach, std::uint8_t histories,
                                   std::uint32_t rays, ForwardTally& tally);
+
+/// What the single backward rays of a phase read, per bin, those of the blocks of `plan.rays`.
+std::vector<RaySums> trace_single_rays(const Phase& phase, const TraceContext& context,
+                                       const Plan& plan);
 
 /// Traces a phase for some blocks of bins, with kernels as narrow as in phase number `radii_of`.
 void trace_phase(const Phase& phase, const TraceContext& context, const Plan& plan,

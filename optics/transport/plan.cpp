@@ -39,17 +39,6 @@ bool is_camera(const TraceContext& context, const ObserverBins& bins) {
     return std::holds_alternative<Camera>(context.stage.parts().observers[bins.observer]);
 }
 
-double photons_per_wide_kernel(const TraceContext& context) {
-    std::uint32_t rays = 1;
-    for (const ObserverBins& bins : context.readings.observers()) {
-        if (is_camera(context, bins)) {
-            const Observer& observer = context.stage.parts().observers[bins.observer];
-            rays = std::max(rays, bins.samples_per_bin / gathers_of_bin(bins, observer));
-        }
-    }
-    return photons_per_ray_of_wide_kernel * rays;
-}
-
 // Radii and rays of the maps, from the rays of a pilot phase.
 void choose_radii(const TraceContext& context, const Settings& settings, Plan& plan) {
     const Stage& stage = context.stage;
@@ -85,14 +74,15 @@ void choose_radii(const TraceContext& context, const Settings& settings, Plan& p
     const PilotPhotons indirect = of(History::indirect);
     plan.indirect_radii = wide_radii(stage, context.planes, indirect);
     plan.indirect_rays = settings.forward_rays.value_or(
-        std::clamp(rays_for(stage, indirect, plan.indirect_radii, photons_per_wide_kernel(context)),
-                   min_forward_rays, at_least_min(context.readings.samples_per_phase())));
+        std::clamp(rays_for(stage, indirect, plan.indirect_radii,
+                            photons_per_ray_of_wide_kernel * plan.rays.per_gather()),
+                   min_forward_rays, at_least_min(plan.rays.per_phase())));
 }
 
 // Blocks spread evenly over all images.
-std::vector<BinBlock> some_of_images(const TraceContext& context) {
+std::vector<BinBlock> some_of_images(const TraceContext& context, const BackwardRays& rays) {
     std::vector<BinBlock> of_images;
-    for (const BinBlock& block : context.readings.blocks()) {
+    for (const BinBlock& block : rays.blocks()) {
         if (is_camera(context, context.readings.observers()[block.observer_bins])) {
             of_images.push_back(block);
         }
@@ -109,7 +99,7 @@ std::vector<BinBlock> some_of_images(const TraceContext& context) {
 // phases of the same pixels, that of emission and direct light apart.
 void choose_collection_of_images(const TraceContext& context, const Settings& settings,
                                  Plan& plan) {
-    const std::vector<BinBlock> blocks = some_of_images(context);
+    const std::vector<BinBlock> blocks = some_of_images(context, plan.rays);
     if (blocks.empty()) return;
     const auto noise = [&](const Collection& collection, std::uint32_t indirect_rays) {
         Plan pilot = plan;
@@ -137,18 +127,33 @@ void choose_collection_of_images(const TraceContext& context, const Settings& se
     }
 }
 
+// More rays for pixels with more noise. A user who states the rays of a pixel gets just those.
+void share_out_rays(const TraceContext& context, const Settings& settings, Plan& plan) {
+    const SceneParts& parts = context.stage.parts();
+    Plan pilot = plan;
+    // What rays of the same surface gather has hardly a say: few photons do.
+    pilot.caustic_rays = at_least_min(plan.caustic_rays / 4);
+    pilot.indirect_rays = at_least_min(plan.indirect_rays / 4);
+    pilot.rays = BackwardRays::of_pilot(parts, context.readings);
+    if (pilot.rays.blocks().empty()) return;
+    const Phase phase(context.stage, settings.seed, pilot_phase - pilot_phases - 1);
+    plan.rays.share_out(parts, context.readings, trace_single_rays(phase, context, pilot),
+                        plan.collections.cameras.reaches_second_event());
+}
+
 }  // namespace
 
 Plan make_plan(const TraceContext& context, const Settings& settings) {
     Plan plan;
+    plan.rays = {context.stage.parts(), context.readings, settings};
     const Collection collection = Collection::of(settings.method, settings.planted_error);
     plan.collections = {collection, collection};
-    const std::uint64_t samples = context.readings.samples_per_phase();
+    const std::uint64_t samples = plan.rays.per_phase();
     plan.caustic_rays =
         settings.forward_rays.value_or(at_least_min(samples / backward_per_caustic_ray));
     plan.secondary_rays =
         settings.forward_rays.value_or(at_least_min(samples / backward_per_secondary_ray));
-    plan.observed = !context.readings.blocks().empty();
+    plan.observed = !plan.rays.blocks().empty();
     if (!plan.observed) return plan;
     choose_radii(context, settings, plan);
     if (settings.method == Method::automatic) choose_collection_of_images(context, settings, plan);
@@ -157,6 +162,7 @@ Plan make_plan(const TraceContext& context, const Settings& settings) {
         std::all_of(observers.begin(), observers.end(),
                     [&](const auto& bins) { return is_camera(context, bins); });
     if (only_cameras) plan.collections.sensors = plan.collections.cameras;
+    if (!settings.samples_per_pixel) share_out_rays(context, settings, plan);
     return plan;
 }
 

@@ -24,22 +24,9 @@ Uncertain Image::pixel(std::size_t i) const {
 
 namespace {
 
-constexpr std::size_t samples_per_block = 1024;
-// Backward rays that all sensors of an observer share in a phase, within limits per point.
-constexpr std::size_t sensor_samples_per_phase = 20000;
-
 // Points whose value is as near to the least one as this many standard errors of the difference
 // might be the least in truth.
 constexpr double rival_errors = 2.0;
-
-// Backward rays of an image in a phase: enough for their stratification to pay, within limits per
-// pixel, and as few as the time and memory of a phase of a large image ask for.
-constexpr std::size_t image_samples_per_phase = 1 << 20;
-
-std::size_t samples_of_pixel(std::size_t pixels, const Settings& settings) {
-    if (settings.samples_per_pixel) return static_cast<std::size_t>(*settings.samples_per_pixel);
-    return std::bit_floor(std::clamp<std::size_t>(image_samples_per_phase / pixels, 1, 16));
-}
 
 std::size_t tiles_along(std::size_t pixels) {
     constexpr std::size_t size = Image::tile_size;
@@ -105,15 +92,7 @@ Readings::Readings(const SceneParts& parts, const Settings& settings)
         const bool camera = std::holds_alternative<Camera>(parts.observers[i]);
         const std::size_t count = bins_of(parts.observers[i]);
         if (count == 0) continue;
-        const std::size_t samples =
-            camera ? samples_of_pixel(count, settings)
-                   : std::clamp<std::size_t>(sensor_samples_per_phase / count, 16, 4096);
-        const std::size_t block = std::max<std::size_t>(1, samples_per_block / samples);
-        for (std::size_t first = 0; first < count; first += block) {
-            blocks_.push_back({observers_.size(), first, std::min(count, first + block)});
-        }
-        observers_.push_back({i, bins, count, static_cast<std::uint32_t>(samples),
-                              static_cast<std::uint32_t>(samples_)});
+        observers_.push_back({i, bins, count});
         is_camera_.push_back(camera);
         first_sensor_bin_.push_back(sensor_bins_);
         if (!camera) sensor_bins_ += count;
@@ -127,7 +106,6 @@ Readings::Readings(const SceneParts& parts, const Settings& settings)
             means.tiles.resize(tiles_along(means.width) * tiles_along(means.height));
         }
         bins += count;
-        samples_ += count * samples;
     }
     sensors_ = BatchMeans(3 * sensor_bins_ + 3);
     for (const Light& light : parts.lights) {

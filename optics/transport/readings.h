@@ -15,14 +15,6 @@ struct ObserverBins {
     std::size_t observer;
     std::size_t first_bin;
     std::size_t count;
-    std::uint32_t samples_per_bin;  ///< backward rays per phase
-    std::uint32_t first_path;       ///< number of the first of them
-};
-
-/// Bins whose samples one task traces.
-struct BinBlock {
-    std::size_t observer_bins;  ///< index of the ObserverBins
-    std::size_t first, last;    ///< bins within the observer, last excluded
 };
 
 /// What all bins read in one phase; different bins may be written by different threads at the same
@@ -35,6 +27,9 @@ public:
     void add(const Phase& phase, std::size_t bin, const Lanes& radiance);
     /// Adds what a kernel collected, with its bias as measured in this phase, to a bin.
     void add(const Phase& phase, std::size_t bin, const Lanes& radiance, const Lanes& bias);
+
+    /// Of a camera or meter, by now [cd/m2]; illuminance of points [lx].
+    double luminance(std::size_t bin) const { return values_[bin].y; }
 
 private:
     friend class Readings;
@@ -53,9 +48,7 @@ public:
     Readings(const SceneParts& parts, const Settings& settings);
 
     const std::vector<ObserverBins>& observers() const { return observers_; }
-    const std::vector<BinBlock>& blocks() const { return blocks_; }
     std::size_t bin_count() const { return luminance_.size(); }
-    std::uint64_t samples_per_phase() const { return samples_; }
 
     /// Readings of a phase, all of them zero.
     PhaseReadings new_phase() const { return {luminance_.size(), spectral_bins_}; }
@@ -95,10 +88,8 @@ private:
     std::optional<Colour> colour(std::size_t sensor_bin) const;
 
     std::vector<ObserverBins> observers_;
-    std::vector<BinBlock> blocks_;
     std::vector<bool> is_camera_;    // per ObserverBins
     std::vector<ImageMeans> means_;  // per ObserverBins
-    std::uint64_t samples_ = 0;
     std::vector<Estimate> luminance_;
     std::vector<double> x_sum_, z_sum_;          // kernel bias included
     std::vector<SensorTarget> targets_;          // per ObserverBins; of cameras not used

@@ -42,7 +42,7 @@ public:
     void trace(const Phase& phase, PhaseTrace& trace) const {
         TraceContext context = context_;
         context.threads = threads_ / lanes_;
-        trace_phase(phase, context, plan_, readings_.blocks(), phase.number, trace);
+        trace_phase(phase, context, plan_, plan_.rays.blocks(), phase.number, trace);
     }
 
     /// Adds a phase to the estimates and empties its trace.

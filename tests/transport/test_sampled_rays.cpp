@@ -30,9 +30,10 @@ std::vector<Ray> first_rays(SceneBuilder scene, int samples_per_pixel, std::uint
         const Readings readings(scene.parts, settings);
         PhaseReadings values = readings.new_phase();
         BackwardTally tally;
-        for (const BinBlock& block : readings.blocks()) {
+        const BackwardRays own(scene.parts, readings, settings);
+        for (const BinBlock& block : own.blocks()) {
             trace_backward(phase, {collection, collection},
-                           readings.observers()[block.observer_bins], block, planes, no_maps,
+                           readings.observers()[block.observer_bins], own, block, planes, no_maps,
                            values, tally);
         }
     }

@@ -1,0 +1,169 @@
+#include "optics/transport/backward_rays.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace lucerna::optics {
+namespace {
+
+constexpr std::size_t rays_per_block = 1024;
+// Backward rays that all sensors of an observer share in a phase, within limits per point.
+constexpr std::size_t sensor_rays_per_phase = 20000;
+// Backward rays of an image in a phase: enough for their stratification to pay, within limits per
+// pixel, and as few as the time and memory of a phase of a large image ask for.
+constexpr std::size_t image_rays_per_phase = 1 << 19;
+constexpr std::size_t gathers_of_image = 1 << 16;
+constexpr std::size_t pilot_rays_of_image = 1 << 18;
+// A pixel gets at most this many times the rays of the average one.
+constexpr std::uint32_t most_times_even = 32;
+
+bool is_camera(const SceneParts& parts, const ObserverBins& bins) {
+    return std::holds_alternative<Camera>(parts.observers[bins.observer]);
+}
+
+std::uint32_t rays_of_pixel(std::size_t pixels, const Settings& settings) {
+    if (settings.samples_per_pixel) return static_cast<std::uint32_t>(*settings.samples_per_pixel);
+    return static_cast<std::uint32_t>(
+        std::bit_floor(std::clamp<std::size_t>(image_rays_per_phase / pixels, 1, 8)));
+}
+
+struct Pixel {
+    double deviation;  // of the luminance of a ray
+    double cost;       // segments of its path
+};
+
+// Of a pixel with its neighbours: edges are thinner than the few rays of a single pixel can find.
+std::vector<Pixel> pixels_of(const Camera& camera, const RaySums* sums) {
+    std::vector<Pixel> result;
+    for (int y = 0; y < camera.height; ++y) {
+        for (int x = 0; x < camera.width; ++x) {
+            RaySums near;
+            for (int j = std::max(0, y - 1); j <= std::min(camera.height - 1, y + 1); ++j) {
+                for (int i = std::max(0, x - 1); i <= std::min(camera.width - 1, x + 1); ++i) {
+                    near += sums[j * camera.width + i];
+                }
+            }
+            const double mean = near.luminance / near.rays;
+            result.push_back({std::sqrt(std::max(0.0, near.square / near.rays - mean * mean)),
+                              near.segments / near.rays});
+        }
+    }
+    return result;
+}
+
+// log2 of the number of rays of each pixel, within limits.
+std::vector<std::uint8_t> rays_log2(const std::vector<Pixel>& pixels, double scale, double least,
+                                    double most) {
+    std::vector<std::uint8_t> log2;
+    log2.reserve(pixels.size());
+    for (const Pixel& pixel : pixels) {
+        const double rays =
+            std::clamp(scale * pixel.deviation / std::sqrt(pixel.cost), least, most);
+        log2.push_back(static_cast<std::uint8_t>(std::lround(std::log2(rays))));
+    }
+    return log2;
+}
+
+double cost_of(const std::vector<Pixel>& pixels, const std::vector<std::uint8_t>& log2) {
+    double cost = 0.0;
+    for (std::size_t i = 0; i < pixels.size(); ++i) cost += std::ldexp(pixels[i].cost, log2[i]);
+    return cost;
+}
+
+}  // namespace
+
+BackwardRays::BackwardRays(const SceneParts& parts, const Readings& readings,
+                           const Settings& settings) {
+    for (const ObserverBins& bins : readings.observers()) {
+        if (is_camera(parts, bins)) {
+            const std::uint32_t rays = rays_of_pixel(bins.count, settings);
+            const auto gathers = static_cast<std::uint32_t>(
+                std::clamp<std::size_t>(gathers_of_image / bins.count, 1, rays));
+            observers_.push_back({rays, rays / gathers, rays, 0, {}});
+        } else {
+            const auto rays = static_cast<std::uint32_t>(
+                std::clamp<std::size_t>(sensor_rays_per_phase / bins.count, 16, 4096));
+            observers_.push_back({rays, 1, rays, 0, {}});
+        }
+    }
+    number(readings);
+}
+
+BackwardRays BackwardRays::of_pilot(const SceneParts& parts, const Readings& readings) {
+    BackwardRays pilot;
+    for (const ObserverBins& bins : readings.observers()) {
+        const auto rays = static_cast<std::uint32_t>(
+            std::bit_floor(std::clamp<std::size_t>(pilot_rays_of_image / bins.count, 1, 4)));
+        pilot.observers_.push_back({is_camera(parts, bins) ? rays : 0, 1, rays, 0, {}});
+    }
+    pilot.number(readings);
+    return pilot;
+}
+
+void BackwardRays::number(const Readings& readings) {
+    blocks_.clear();
+    total_ = 0;
+    std::uint64_t paths = 0;
+    for (std::size_t i = 0; i < observers_.size(); ++i) {
+        Shares& own = observers_[i];
+        own.first_path = static_cast<std::uint32_t>(paths);
+        const std::size_t bins = readings.observers()[i].count;
+        paths += bins * own.most;
+        std::size_t first = 0, rays = 0;
+        for (std::size_t bin = 0; bin < bins; ++bin) {
+            const std::uint32_t count = of(i, bin).count;
+            if (rays > 0 && rays + count > rays_per_block) {
+                blocks_.push_back({i, first, bin});
+                first = bin;
+                rays = 0;
+            }
+            rays += count;
+            total_ += count;
+        }
+        if (rays > 0) blocks_.push_back({i, first, bins});
+    }
+}
+
+std::uint32_t BackwardRays::per_gather() const {
+    std::uint32_t largest = 1;
+    for (const Shares& own : observers_) largest = std::max(largest, own.per_gather);
+    return largest;
+}
+
+std::size_t BackwardRays::bytes() const {
+    std::size_t bytes = blocks_.size() * sizeof(BinBlock);
+    for (const Shares& own : observers_) bytes += own.log2.size();
+    return bytes;
+}
+
+void BackwardRays::share_out(const SceneParts& parts, const Readings& readings,
+                             const std::vector<RaySums>& sums, bool noise_everywhere) {
+    for (std::size_t i = 0; i < observers_.size(); ++i) {
+        const ObserverBins& bins = readings.observers()[i];
+        if (!is_camera(parts, bins)) continue;
+        Shares& own = observers_[i];
+        const std::vector<Pixel> pixels = pixels_of(
+            std::get<Camera>(parts.observers[bins.observer]), sums.data() + bins.first_bin);
+        double largest = 0.0, cost = 0.0;
+        for (const Pixel& pixel : pixels) {
+            largest = std::max(largest, pixel.deviation);
+            cost += pixel.cost;
+        }
+        if (largest == 0.0) continue;
+        own.most = most_times_even * own.even;
+        const double least = noise_everywhere ? 2 * own.even : std::max(1u, own.even / 2);
+        const double wanted = (noise_everywhere ? 1.25 : 2.0) * least * cost;
+        // The cost grows with the scale in steps: the largest that is not above what is wanted.
+        double low = 0.0, high = own.most * 1e6 / largest;
+        for (int step = 0; step < 60; ++step) {
+            const double scale = 0.5 * (low + high);
+            (cost_of(pixels, rays_log2(pixels, scale, least, own.most)) <= wanted ? low : high) =
+                scale;
+        }
+        own.log2 = rays_log2(pixels, low, least, own.most);
+    }
+    number(readings);
+}
+
+}  // namespace lucerna::optics

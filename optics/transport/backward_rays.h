@@ -1,0 +1,84 @@
+// How many backward rays each bin gets in a phase.
+#pragma once
+
+#include "optics/transport/readings.h"
+
+namespace lucerna::optics {
+
+/// Bins whose rays one task traces.
+struct BinBlock {
+    std::size_t observer_bins;  ///< index of the ObserverBins
+    std::size_t first, last;    ///< bins within the observer, last excluded
+};
+
+/// The backward rays of a bin in a phase.
+struct BinRays {
+    std::uint32_t count;
+    /// Of those that see the same surface, one gathers photons for this many: in a large image
+    /// kernels are wider than pixels, and what the other rays of a pixel would find is nearly the
+    /// same.
+    std::uint32_t per_gather;
+    std::uint32_t first_path;  ///< number of the first of them
+};
+
+/// What the single rays of a bin read: the number of rays, and sums over them.
+struct RaySums {
+    double rays = 0.0, luminance = 0.0, square = 0.0;
+    double segments = 0.0;  ///< of their paths, shadow rays included
+
+    RaySums& operator+=(const RaySums& other) {
+        rays += other.rays;
+        luminance += other.luminance;
+        square += other.square;
+        segments += other.segments;
+        return *this;
+    }
+};
+
+/// The number of rays of each bin, the same in all phases: it must not follow what phases find.
+class BackwardRays {
+public:
+    BackwardRays() = default;  ///< none
+    /// The same for all bins of an observer.
+    BackwardRays(const SceneParts& parts, const Readings& readings, const Settings& settings);
+
+    /// A few for each pixel, and none for sensors, to find out where a pixel needs more.
+    static BackwardRays of_pilot(const SceneParts& parts, const Readings& readings);
+
+    BinRays of(std::size_t observer_bins, std::size_t bin) const {
+        const Shares& own = observers_[observer_bins];
+        const std::uint32_t count = own.log2.empty() ? own.even : 1u << own.log2[bin];
+        return {count, std::min(count, own.per_gather),
+                own.first_path + static_cast<std::uint32_t>(bin) * own.most};
+    }
+    const std::vector<BinBlock>& blocks() const { return blocks_; }
+    std::uint64_t per_phase() const { return total_; }
+    /// Largest number of rays that one gathers for.
+    std::uint32_t per_gather() const;
+    std::size_t bytes() const;
+
+    /// Gives more rays to pixels whose rays differ most for what they cost: with n ~ standard
+    /// deviation of a ray / sqrt(its cost) the sum of the variances of all pixels is least for the
+    /// cost (Neyman, J. R. Stat. Soc. 97, 1934, 558; Cochran, Sampling Techniques, 3rd ed.,
+    /// eq. 5.21). Half of an image's rays are shared out evenly; four in five of them, and twice as
+    /// many in all, if noise is everywhere, which a pilot phase does not measure well.
+    /// @param sums  per bin, of the rays of a pilot phase.
+    void share_out(const SceneParts& parts, const Readings& readings,
+                   const std::vector<RaySums>& sums, bool noise_everywhere);
+
+private:
+    struct Shares {
+        std::uint32_t even;
+        std::uint32_t per_gather;
+        std::uint32_t most;  // rays that any bin may have
+        std::uint32_t first_path = 0;
+        std::vector<std::uint8_t> log2;  // of each bin's number; empty if it is `even` for all
+    };
+    void number(const Readings& readings);
+
+    std::vector<Shares> observers_;  // per ObserverBins
+    std::vector<BinBlock> blocks_;
+    std::uint64_t total_ = 0;
+};
+
+}  // namespace lucerna::optics

@@ -29,8 +29,8 @@ std::uint32_t rays_of_pixel(std::size_t pixels, const Settings& settings) {
 }
 
 struct Pixel {
-    double deviation;  // of the luminance of a ray
-    double cost;       // segments of its path
+    float deviation;  // of the luminance of a ray
+    float cost;       // segments of its path
 };
 
 // Of a pixel with its neighbours: edges are thinner than the few rays of a single pixel can find.
@@ -44,8 +44,8 @@ std::vector<Pixel> pixels_of(const Camera& camera, const RaySums* sums) {
                     near += sums[j * camera.width + i];
                 }
             }
-            const double mean = near.luminance / near.rays;
-            result.push_back({std::sqrt(std::max(0.0, near.square / near.rays - mean * mean)),
+            const float mean = near.luminance / near.rays;
+            result.push_back({std::sqrt(std::max(0.0f, near.square / near.rays - mean * mean)),
                               near.segments / near.rays});
         }
     }
@@ -58,8 +58,8 @@ std::vector<std::uint8_t> rays_log2(const std::vector<Pixel>& pixels, double sca
     std::vector<std::uint8_t> log2;
     log2.reserve(pixels.size());
     for (const Pixel& pixel : pixels) {
-        const double rays =
-            std::clamp(scale * pixel.deviation / std::sqrt(pixel.cost), least, most);
+        const double rays = std::clamp(
+            scale * static_cast<double>(pixel.deviation / std::sqrt(pixel.cost)), least, most);
         log2.push_back(static_cast<std::uint8_t>(std::lround(std::log2(rays))));
     }
     return log2;
@@ -67,7 +67,8 @@ std::vector<std::uint8_t> rays_log2(const std::vector<Pixel>& pixels, double sca
 
 double cost_of(const std::vector<Pixel>& pixels, const std::vector<std::uint8_t>& log2) {
     double cost = 0.0;
-    for (std::size_t i = 0; i < pixels.size(); ++i) cost += std::ldexp(pixels[i].cost, log2[i]);
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+        cost += std::ldexp(static_cast<double>(pixels[i].cost), log2[i]);
     return cost;
 }
 
@@ -145,17 +146,18 @@ void BackwardRays::share_out(const SceneParts& parts, const Readings& readings,
         Shares& own = observers_[i];
         const std::vector<Pixel> pixels = pixels_of(
             std::get<Camera>(parts.observers[bins.observer]), sums.data() + bins.first_bin);
-        double largest = 0.0, cost = 0.0;
+        float largest = 0.0f;
+        double cost = 0.0;
         for (const Pixel& pixel : pixels) {
             largest = std::max(largest, pixel.deviation);
-            cost += pixel.cost;
+            cost += static_cast<double>(pixel.cost);
         }
-        if (largest == 0.0) continue;
+        if (largest == 0.0f) continue;
         own.most = most_times_even * own.even;
         const double least = noise_everywhere ? 2 * own.even : std::max(1u, own.even / 2);
         const double wanted = (noise_everywhere ? 1.25 : 2.0) * least * cost;
         // The cost grows with the scale in steps: the largest that is not above what is wanted.
-        double low = 0.0, high = own.most * 1e6 / largest;
+        double low = 0.0, high = own.most * 1e6 / static_cast<double>(largest);
         for (int step = 0; step < 60; ++step) {
             const double scale = 0.5 * (low + high);
             (cost_of(pixels, rays_log2(pixels, scale, least, own.most)) <= wanted ? low : high) =

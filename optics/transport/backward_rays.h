@@ -23,8 +23,8 @@ struct BinRays {
 
 /// What the single rays of a bin read: the number of rays, and sums over them.
 struct RaySums {
-    double rays = 0.0, luminance = 0.0, square = 0.0;
-    double segments = 0.0;  ///< of their paths, shadow rays included
+    float rays = 0.0f, luminance = 0.0f, square = 0.0f;
+    float segments = 0.0f;  ///< of their paths, shadow rays included
 
     RaySums& operator+=(const RaySums& other) {
         rays += other.rays;

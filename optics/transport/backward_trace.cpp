@@ -55,12 +55,13 @@ public:
             const std::uint64_t segments = tally_.segments + tally_.shadow_segments;
             trace(bins, bin, ray, random);
             if (sums) {
-                const double luminance = rays.count * (readings_.luminance(bin_) - before);
-                sums->rays += 1.0;
+                const auto luminance =
+                    static_cast<float>(rays.count * (readings_.luminance(bin_) - before));
+                sums->rays += 1.0f;
                 sums->luminance += luminance;
                 sums->square += luminance * luminance;
                 sums->segments +=
-                    static_cast<double>(tally_.segments + tally_.shadow_segments - segments);
+                    static_cast<float>(tally_.segments + tally_.shadow_segments - segments);
             }
         }
     }

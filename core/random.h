@@ -17,7 +17,8 @@ enum class RandomPurpose : std::uint32_t {
     test,
     strata,
     indirect,
-    masks
+    masks,
+    emission
 };
 
 /// Random numbers of one path, Philox4x32-10 (Salmon et al., SC'11) by Random123.

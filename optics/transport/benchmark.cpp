@@ -87,7 +87,9 @@ public:
         const std::uint32_t rays = caustic ? plan_.caustic_rays : plan_.indirect_rays;
         ForwardTally unused(stage_.parts());
         const std::vector<Photon> photons = trace_photons(
-            phase_, context_, caustic ? RandomPurpose::caustic : RandomPurpose::indirect,
+            phase_, context_,
+            caustic ? Emission(phase_, RandomPurpose::caustic, plan_.caustic_guide, rays)
+                    : Emission(phase_, RandomPurpose::indirect),
             caustic ? Reach::first_scattering : Reach::whole_path, mask(history), rays, unused);
         if (photons.empty()) return rates;
 
@@ -197,12 +199,13 @@ private:
     std::vector<std::vector<Photon>> arrivals(std::uint32_t rays, int threads, bool kept) const {
         std::vector<std::vector<Photon>> photons((rays + forward_rays_per_block - 1) /
                                                  forward_rays_per_block);
+        const Emission emission(phase_, RandomPurpose::secondary);
         for_each_block(photons.size(), threads, [&](std::size_t task) {
             ForwardTally tally(stage_.parts());
             const auto first = static_cast<std::uint32_t>(task) * forward_rays_per_block;
             for (std::uint32_t i = first; i < std::min(rays, first + forward_rays_per_block); ++i) {
-                trace_forward(phase_, RandomPurpose::secondary, i, Reach::whole_path, nullptr,
-                              tally, [&](const Photon& photon) {
+                trace_forward(phase_, emission, i, Reach::whole_path, nullptr, tally,
+                              [&](const Photon& photon) {
                                   if (kept) photons[task].push_back(photon);
                               });
             }

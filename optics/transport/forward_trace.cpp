@@ -30,16 +30,13 @@ int choose_hero(const Phase& phase, double u) {
     return (phase.wavelengths.hero + std::min(step, others)) % spectral::lane_count;
 }
 
-Path emitted_path(const Phase& phase, RandomStream& random) {
+Path emitted_path(const Phase& phase, const Departure& departure, RandomStream& random) {
     const Stage& stage = phase.stage;
-    const std::size_t chosen = stage.light_choice().sample(random.uniform());
-    const Light& light = stage.parts().lights[chosen];
-    const double u1 = random.uniform();
-    const double u2 = random.uniform();
-    const double u3 = random.uniform();
-    const double u4 = random.uniform();
+    const Light& light = stage.parts().lights[departure.light];
+    const auto& [u1, u2, u3, u4] = departure.u;
     const EmittedRay emitted = emit(light.source, u1, u2, u3, u4);
-    const double scale = emitted.weight / stage.light_choice().probability(chosen);
+    const double scale =
+        emitted.weight * departure.weight / stage.light_choice().probability(departure.light);
     return {.ray = emitted.ray,
             .start = emitted.surface,
             .media = stage.media_at(emitted.ray.origin + stage.nudge_m() * emitted.ray.direction),
@@ -65,13 +62,13 @@ void ForwardTally::operator+=(const ForwardTally& other) {
     segments += other.segments;
 }
 
-void trace_forward(const Phase& phase, RandomPurpose purpose, std::uint32_t index, Reach reach,
+void trace_forward(const Phase& phase, const Emission& emission, std::uint32_t index, Reach reach,
                    const SensorPlanes* planes, ForwardTally& tally,
                    const std::function<void(const Photon&)>& arrive) {
     const Stage& stage = phase.stage;
     const SceneParts& parts = stage.parts();
-    RandomStream random(phase.seed, phase.number, purpose, index);
-    Path path = emitted_path(phase, random);
+    RandomStream random = emission.random(index);
+    Path path = emitted_path(phase, emission.depart(index, random), random);
     History history = History::direct;
     double flux_lm = phase.luminous(path.weight);
     tally.emitted += flux_lm;

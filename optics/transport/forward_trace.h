@@ -4,6 +4,7 @@
 #include <functional>
 #include <vector>
 
+#include "optics/transport/emission.h"
 #include "optics/transport/path.h"
 #include "optics/transport/sensor_planes.h"
 
@@ -51,10 +52,10 @@ struct ForwardTally {
 enum class Reach { first_scattering, whole_path };
 
 /// Traces ray number `index` of a trace and gives every arrival at a scattering surface to
-/// `arrive`. With `first_scattering` the path ends there. Rays are unbiased samples of the light's
+/// `arrive`. With `first_scattering` the path ends there. Rays are unbiased samples of the lights'
 /// flux; the sum over n rays divided by n estimates it.
 /// @param planes  virtual planes of sensors whose crossings count as arrivals too, or nullptr.
-void trace_forward(const Phase& phase, RandomPurpose purpose, std::uint32_t index, Reach reach,
+void trace_forward(const Phase& phase, const Emission& emission, std::uint32_t index, Reach reach,
                    const SensorPlanes* planes, ForwardTally& tally,
                    const std::function<void(const Photon&)>& arrive);
 

@@ -112,6 +112,7 @@ public:
           maps_(maps),
           hidden_radii_(hidden_radii),
           trace_(trace),
+          emission_(phase, RandomPurpose::secondary),
           batches_((plan.secondary_rays + forward_rays_per_block - 1) / forward_rays_per_block) {
         const int count = group_count(context.threads);
         for (int i = 0; i < count; ++i) {
@@ -224,8 +225,8 @@ private:
         std::vector<BackwardMap::Deposits> deposits(entered.size());
         ForwardTally of_batch(context_.stage.parts());
         for (std::uint32_t i = 0; i < forward_rays_per_block; ++i) {
-            trace_forward(phase_, RandomPurpose::secondary, batch * forward_rays_per_block + i,
-                          Reach::whole_path, nullptr, of_batch, [&](const Photon& photon) {
+            trace_forward(phase_, emission_, batch * forward_rays_per_block + i, Reach::whole_path,
+                          nullptr, of_batch, [&](const Photon& photon) {
                               ++hits;
                               for (std::size_t k = 0; k < entered.size(); ++k) {
                                   groups_[entered[k]]->open_map.map().find(photon, deposits[k]);
@@ -245,6 +246,7 @@ private:
     const ForwardMaps& maps_;
     const Radii& hidden_radii_;
     PhaseTrace& trace_;
+    Emission emission_;
     std::uint32_t batches_;  // that each map takes
     std::vector<int> threads_of_;
     std::vector<std::unique_ptr<Group>> groups_;

@@ -17,13 +17,13 @@ std::uint32_t block_count(std::uint32_t rays) {
 
 // The photons of one history: caustics need no path beyond the first scattering event.
 ForwardMap forward_map(const Phase& phase, const TraceContext& context, History history,
-                       std::uint32_t rays, const Radii& radii, ForwardTally& tally,
-                       RayCounts& counts) {
+                       const Emission& emission, std::uint32_t rays, const Radii& radii,
+                       ForwardTally& tally, RayCounts& counts) {
     const bool caustic = history == History::caustic;
     const Stopwatch watch;
     const std::vector<Photon> photons = trace_photons(
-        phase, context, caustic ? RandomPurpose::caustic : RandomPurpose::indirect,
-        caustic ? Reach::first_scattering : Reach::whole_path, mask(history), rays, tally);
+        phase, context, emission, caustic ? Reach::first_scattering : Reach::whole_path,
+        mask(history), rays, tally);
     counts.caustic_s += watch.seconds();
     counts.caustic_rays += rays;
     counts.forward_photons += photons.size();
@@ -43,14 +43,17 @@ ForwardMaps forward_maps(const Phase& phase, const TraceContext& context, const 
     if (gathers(History::caustic)) {
         maps.caustic_radii = plan.caustic_radii.at_phase(radii_of);
         ForwardTally unused(context.stage.parts());
-        maps.caustic = forward_map(phase, context, History::caustic, plan.caustic_rays,
+        const Emission emission(phase, RandomPurpose::caustic, plan.caustic_guide,
+                                plan.caustic_rays);
+        maps.caustic = forward_map(phase, context, History::caustic, emission, plan.caustic_rays,
                                    maps.caustic_radii, unused, trace.counts);
     }
     if (gathers(History::indirect)) {
         maps.indirect_radii = plan.indirect_radii.at_phase(radii_of);
         ForwardTally tally(context.stage.parts());
-        maps.indirect = forward_map(phase, context, History::indirect, plan.indirect_rays,
-                                    maps.indirect_radii, tally, trace.counts);
+        maps.indirect =
+            forward_map(phase, context, History::indirect, Emission(phase, RandomPurpose::indirect),
+                        plan.indirect_rays, maps.indirect_radii, tally, trace.counts);
         if (!plan.traces_secondary(context.stage, context.planes)) {
             trace.tally = tally;
             trace.balance_rays = plan.indirect_rays;
@@ -64,6 +67,7 @@ ForwardMaps forward_maps(const Phase& phase, const TraceContext& context, const 
 // receivers and flux balance.
 void deposit(const Phase& phase, const TraceContext& context, std::uint32_t rays, BackwardMap& map,
              PhaseTrace& trace) {
+    const Emission emission(phase, RandomPurpose::secondary);
     const std::uint32_t blocks = block_count(rays);
     const bool locked = context.scheduler == Scheduler::synchronous;
     for (std::uint32_t chunk = 0; chunk < blocks; chunk += blocks_per_chunk) {
@@ -76,8 +80,8 @@ void deposit(const Phase& phase, const TraceContext& context, std::uint32_t rays
             const std::uint32_t first =
                 (chunk + static_cast<std::uint32_t>(block)) * forward_rays_per_block;
             for (std::uint32_t i = first; i < std::min(rays, first + forward_rays_per_block); ++i) {
-                trace_forward(phase, RandomPurpose::secondary, i, Reach::whole_path, nullptr,
-                              tallies[block], [&](const Photon& photon) {
+                trace_forward(phase, emission, i, Reach::whole_path, nullptr, tallies[block],
+                              [&](const Photon& photon) {
                                   ++hits[block];
                                   if (locked) {
                                       applied[block] += map.deposit_locked(photon);
@@ -116,7 +120,7 @@ bool Plan::traces_secondary(const Stage& stage, const SensorPlanes& planes) cons
 }
 
 std::vector<Photon> trace_photons(const Phase& phase, const TraceContext& context,
-                                  RandomPurpose purpose, Reach reach, std::uint8_t histories,
+                                  const Emission& emission, Reach reach, std::uint8_t histories,
                                   std::uint32_t rays, ForwardTally& tally) {
     const std::uint32_t blocks = block_count(rays);
     std::vector<std::vector<Photon>> photons(blocks);
@@ -124,7 +128,7 @@ std::vector<Photon> trace_photons(const Phase& phase, const TraceContext& contex
     for_each_block(blocks, context.threads, [&](std::size_t block) {
         const auto first = static_cast<std::uint32_t>(block) * forward_rays_per_block;
         for (std::uint32_t i = first; i < std::min(rays, first + forward_rays_per_block); ++i) {
-            trace_forward(phase, purpose, i, reach, &context.planes, tallies[block],
+            trace_forward(phase, emission, i, reach, &context.planes, tallies[block],
                           [&](const Photon& photon) {
                               if (histories & mask(photon.history)) {
                                   photons[block].push_back(photon);

@@ -23,7 +23,8 @@ struct Plan {
     std::uint32_t caustic_rays = 0, indirect_rays = 0;  ///< of the forward maps, per phase
     std::uint32_t secondary_rays = 0;                   ///< that deposit in the backward map
     Radii caustic_radii, indirect_radii, hidden_radii;  ///< of the first phase
-    bool observed = false;                              ///< by any camera or sensor
+    EmissionGuide caustic_guide;
+    bool observed = false;  ///< by any camera or sensor
 
     /// Whether light of a history is gathered from its forward map by anyone.
     bool gathers(const Stage& stage, const SensorPlanes& planes, History history) const;
@@ -55,7 +56,7 @@ struct PhaseTrace {
 
 /// Photons of the given histories, or-ed, of the rays of a forward trace, in the order of the rays.
 std::vector<Photon> trace_photons(const Phase& phase, const TraceContext& context,
-                                  RandomPurpose purpose, Reach reach, std::uint8_t histories,
+                                  const Emission& emission, Reach reach, std::uint8_t histories,
                                   std::uint32_t rays, ForwardTally& tally);
 
 /// What the single backward rays of a phase read, per bin, those of the blocks of `plan.rays`.

@@ -12,14 +12,22 @@ namespace {
 constexpr std::size_t probes_per_patch = 64;
 constexpr std::size_t neighbours = 12;
 
+// Where a photon arrives, and how much light it stands for.
+struct Arrival {
+    Vec3 position;
+    double flux;
+};
+
 // Median over some of the points of the squared distance to their `neighbours`-th nearest.
-double median_square_distance(const std::vector<Vec3>& points) {
+double median_square_distance(const std::vector<Arrival>& points) {
     std::vector<double> probes;
     const std::size_t step = std::max<std::size_t>(1, points.size() / probes_per_patch);
     for (std::size_t i = 0; i < points.size(); i += step) {
         std::vector<double> squares;
         squares.reserve(points.size());
-        for (const Vec3& other : points) squares.push_back((other - points[i]).squaredNorm());
+        for (const Arrival& other : points) {
+            squares.push_back((other.position - points[i].position).squaredNorm());
+        }
         std::nth_element(squares.begin(), squares.begin() + neighbours, squares.end());
         probes.push_back(squares[neighbours]);
     }
@@ -28,20 +36,38 @@ double median_square_distance(const std::vector<Vec3>& points) {
     return probes[probes.size() / 2];
 }
 
-// Numbers of photons within limit_m, limit_m / sqrt 2, limit_m / 2, ... of a point.
+// Flux within limit_m, limit_m / sqrt 2, limit_m / 2, ... of a point, and the sum of its squares.
 constexpr std::size_t radius_steps = 32;  // the last is 2e-5 of the first
-using CountsByRadius = std::array<double, radius_steps + 1>;
+struct LightByRadius {
+    std::array<double, radius_steps + 1> flux{}, squares{};
+};
 
-CountsByRadius counts_around(const Vec3& point, const std::vector<Vec3>& photons, double limit_m) {
-    CountsByRadius counts{};
-    for (const Vec3& photon : photons) {
-        const double square = (photon - point).squaredNorm() / (limit_m * limit_m);
+LightByRadius light_around(const Vec3& point, const std::vector<Arrival>& photons, double limit_m) {
+    LightByRadius light;
+    for (const Arrival& photon : photons) {
+        const double square = (photon.position - point).squaredNorm() / (limit_m * limit_m);
         if (square >= 1.0 || square == 0.0) continue;  // a photon is no evidence about itself
-        const double step = std::min(-std::log2(square), double{radius_steps});
-        counts[static_cast<std::size_t>(step)] += 1.0;
+        const auto step =
+            static_cast<std::size_t>(std::min(-std::log2(square), double{radius_steps}));
+        light.flux[step] += photon.flux;
+        light.squares[step] += photon.flux * photon.flux;
     }
-    for (std::size_t i = radius_steps; i > 0; --i) counts[i - 1] += counts[i];
-    return counts;
+    for (std::size_t i = radius_steps; i > 0; --i) {
+        light.flux[i - 1] += light.flux[i];
+        light.squares[i - 1] += light.squares[i];
+    }
+    return light;
+}
+
+// In a unit in which photons of equal flux have 1.
+void normalise(std::vector<Arrival>& photons) {
+    double sum = 0.0, squares = 0.0;
+    for (const Arrival& photon : photons) {
+        sum += photon.flux;
+        squares += photon.flux * photon.flux;
+    }
+    if (!(squares > 0.0)) return;
+    for (Arrival& photon : photons) photon.flux *= sum / squares;
 }
 
 // What is asked of a radius: the bias as a share of the light, root mean square over the points,
@@ -57,33 +83,35 @@ constexpr BiasLimit of_surfaces{0.15, 2.0};
 
 // The widest radius, at most limit_m, whose bias keeps within the limit at the points, and that of
 // the next narrower one as well: a lucky look must not decide.
-double radius_of_small_bias(const std::vector<Vec3>& photons, const std::vector<Vec3>& points,
+double radius_of_small_bias(const std::vector<Arrival>& photons, const std::vector<Vec3>& points,
                             double limit_m, const BiasLimit& limit) {
     constexpr std::size_t most_points = 64;
     constexpr double least_photons = 4.0;  // per point
     const std::size_t stride = std::max<std::size_t>(1, points.size() / most_points);
-    std::vector<CountsByRadius> of_points;
+    std::vector<LightByRadius> of_points;
     for (std::size_t i = 0; i < points.size(); i += stride) {
-        of_points.push_back(counts_around(points[i], photons, limit_m));
+        of_points.push_back(light_around(points[i], photons, limit_m));
     }
     const auto n = static_cast<double>(of_points.size());
     bool wider_passed = false;
     double radius_m = limit_m;
     for (std::size_t step = 0; step < radius_steps; ++step, radius_m /= std::numbers::sqrt2) {
         double photon_count = 0.0;
+        double variance = 0.0;
         double bias_square = 0.0;
         double square = 0.0;
-        for (const CountsByRadius& counts : of_points) {
-            const double all = counts[step];
-            // bias = 2 (n(r) - 2 n(r / sqrt 2)) / (pi r^2); the variance of that difference of
-            // counts is the number of all.
-            const double bias = 2.0 * (all - 2.0 * counts[step + 1]);
-            bias_square += bias * bias - 4.0 * all;
+        for (const LightByRadius& light : of_points) {
+            const double all = light.flux[step];
+            // bias = 2 (F(r) - 2 F(r / sqrt 2)) / (pi r^2); the variance of that difference of
+            // fluxes is the sum of their squares.
+            const double bias = 2.0 * (all - 2.0 * light.flux[step + 1]);
+            bias_square += bias * bias - 4.0 * light.squares[step];
             square += all * all;
             photon_count += all;
+            variance += light.squares[step];
         }
         // With k photons at each of n points, bias_square has the standard deviation k sqrt(32 n).
-        const double noise = photon_count * std::sqrt(32.0 / n);
+        const double noise = variance * std::sqrt(32.0 / n);
         const bool passed = bias_square <= limit.share * limit.share * square + limit.noise * noise;
         if (passed && wider_passed) return std::numbers::sqrt2 * radius_m;
         wider_passed = passed;
@@ -95,23 +123,25 @@ double radius_of_small_bias(const std::vector<Vec3>& photons, const std::vector<
 // @param photons  of the pilot trace in a kernel; what surfaces and sensors ask for comes on top.
 Radii radii_of(const Stage& stage, const SensorPlanes& planes, const PilotPhotons& pilot,
                const PhotonsPerKernel& photons, bool seen) {
-    std::vector<std::vector<Vec3>> positions(stage.patch_count() + planes.count());
+    std::vector<std::vector<Arrival>> arrivals(stage.patch_count() + planes.count());
     for (const Photon& photon : pilot.photons) {
-        positions[kernel_patch(stage, photon.point)].push_back(photon.point.position);
+        arrivals[kernel_patch(stage, photon.point)].push_back(
+            {photon.point.position, static_cast<double>(photon.flux.sum())});
     }
+    for (auto& of_patch : arrivals) normalise(of_patch);
     const double scene_limit_m = stage.caster().scene_radius_m() / 20.0;
     std::vector<double> radii_m;
-    radii_m.reserve(positions.size());
-    for (std::uint32_t patch = 0; patch < positions.size(); ++patch) {
+    radii_m.reserve(arrivals.size());
+    for (std::uint32_t patch = 0; patch < arrivals.size(); ++patch) {
         const bool sensor = patch >= stage.patch_count();
         const double limit_m =
             sensor ? planes.margin_m()
                    : std::min(scene_limit_m, std::sqrt(stage.patch_area_m2(patch)) / 8.0);
         double radius_m = limit_m;
         const double photons_per_kernel = sensor ? photons.of_sensors : photons.of_surfaces;
-        if (positions[patch].size() > 2 * neighbours && photons_per_kernel < infinity) {
+        if (arrivals[patch].size() > 2 * neighbours && photons_per_kernel < infinity) {
             // n photons within d: density n / (pi d^2); wanted K = density * pi r^2.
-            const double square_m2 = median_square_distance(positions[patch]);
+            const double square_m2 = median_square_distance(arrivals[patch]);
             radius_m = std::min(limit_m, std::sqrt(photons_per_kernel * square_m2 / neighbours));
         }
         if (sensor) {
@@ -119,11 +149,12 @@ Radii radii_of(const Stage& stage, const SensorPlanes& planes, const PilotPhoton
             for (const auto& point : planes.points_of(patch - stage.patch_count())) {
                 points.push_back(point.position);
             }
-            radius_m = std::max(
-                radius_m, radius_of_small_bias(positions[patch], points, limit_m, of_sensors));
-        } else if (seen && positions[patch].size() > 2 * neighbours) {
-            radius_m =
-                radius_of_small_bias(positions[patch], positions[patch], radius_m, of_surfaces);
+            radius_m = std::max(radius_m,
+                                radius_of_small_bias(arrivals[patch], points, limit_m, of_sensors));
+        } else if (seen && arrivals[patch].size() > 2 * neighbours) {
+            std::vector<Vec3> points;
+            for (const Arrival& photon : arrivals[patch]) points.push_back(photon.position);
+            radius_m = radius_of_small_bias(arrivals[patch], points, radius_m, of_surfaces);
         }
         radii_m.push_back(radius_m);
     }
@@ -139,6 +170,14 @@ Radii Radii::at_phase(std::uint32_t number) const {
     shrunk.reserve(radii_m_.size());
     for (const double radius : radii_m_) shrunk.push_back(radius * factor);
     return Radii(std::move(shrunk));
+}
+
+Radii Radii::or_wider(const Radii& others, std::uint32_t patches) const {
+    Radii wider = *this;
+    for (std::uint32_t patch = 0; patch < patches; ++patch) {
+        wider.radii_m_[patch] = std::max(radii_m_[patch], others[patch]);
+    }
+    return wider;
 }
 
 Radii narrow_radii(const Stage& stage, const SensorPlanes& planes, const PilotPhotons& pilot,

@@ -22,11 +22,15 @@ public:
     /// left is O(r^4): alpha = 4/5 balances that, and the error falls with N^-0.4, not N^-0.33.
     Radii at_phase(std::uint32_t number) const;
 
+    /// Those of the first patches no narrower than others.
+    Radii or_wider(const Radii& others, std::uint32_t patches) const;
+
 private:
     std::vector<double> radii_m_;
 };
 
-/// Photons of a trace with `rays` rays whose results are not used but for what follows.
+/// Photons of a trace with `rays` rays whose results are not used but for what follows. The rays
+/// are independent of each other.
 struct PilotPhotons {
     std::vector<Photon> photons;
     std::uint32_t rays;

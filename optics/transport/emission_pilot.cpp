@@ -1,0 +1,140 @@
+#include "optics/transport/emission_pilot.h"
+
+#include <algorithm>
+
+#include "core/parallel.h"
+
+namespace lucerna::optics {
+namespace {
+
+constexpr std::uint32_t pilot_rays = 1 << 16;
+constexpr std::uint32_t rays_per_task = 1 << 10;
+constexpr std::uint64_t points_per_observer = 1 << 14;
+constexpr std::uint8_t all_light =
+    mask(History::direct) | mask(History::caustic) | mask(History::indirect);
+
+/// Points whose kernels observers gather from, as vertices that take all light.
+struct SeenPoints {
+    std::vector<BackwardPhoton> vertices;
+    std::vector<std::uint32_t> targets;  // of each: what wants a variance of its own to be small
+    std::uint32_t target_count = 0;
+};
+
+// Where the rays of an observer meet the first scattering surface.
+void add_seen(const Phase& phase, const TraceContext& context, const Settings& settings,
+              SeenPoints& seen) {
+    Settings one_ray = settings;
+    one_ray.samples_per_pixel = 1;
+    const BackwardRays rays(context.stage.parts(), context.readings, one_ray);
+    constexpr Collection to_first_event{.first_deposit = all_light};
+    const auto& observers = context.readings.observers();
+    for (std::size_t i = 0; i < observers.size(); ++i) {
+        if (std::holds_alternative<IlluminancePoints>(
+                context.stage.parts().observers[observers[i].observer])) {
+            continue;
+        }
+        std::vector<BinBlock> blocks;
+        std::uint64_t all = 0;
+        for (const BinBlock& block : rays.blocks()) {
+            if (block.observer_bins != i) continue;
+            blocks.push_back(block);
+            for (std::size_t bin = block.first; bin < block.last; ++bin) {
+                all += rays.of(i, bin).count;
+            }
+        }
+        const std::size_t step =
+            std::clamp<std::uint64_t>(all / points_per_observer, 1, blocks.size());
+        const std::size_t count = (blocks.size() + step - 1) / step;
+        std::vector<std::vector<BackwardPhoton>> stored(count);
+        PhaseReadings unused = context.readings.new_phase();
+        const ForwardMaps no_maps;
+        for_each_block(count, context.threads, [&](std::size_t block) {
+            BackwardTally tally;
+            stored[block] =
+                trace_backward(phase, {to_first_event, to_first_event}, observers[i], rays,
+                               blocks[block * step], context.planes, no_maps, unused, tally);
+        });
+        for (const auto& block : stored) {
+            seen.vertices.insert(seen.vertices.end(), block.begin(), block.end());
+        }
+        seen.targets.resize(seen.vertices.size(), seen.target_count++);
+    }
+}
+
+void add_illuminance_points(const TraceContext& context, SeenPoints& seen) {
+    for (std::uint32_t plane = 0; plane < context.planes.count(); ++plane) {
+        for (const SensorPlanes::Point& point : context.planes.points_of(plane)) {
+            seen.vertices.push_back(
+                {.point = {point.position, Vec3::UnitZ(), no_object, plane, plane},
+                 .wo = Vec3::UnitZ(),
+                 .throughput = Lanes::Ones(),
+                 .bsdf = context.stage.white_diffuser(),
+                 .medium_above = no_object,
+                 .medium_below = no_object,
+                 .bin = 0,
+                 .accepts = all_light,
+                 .hero_only = false});
+            seen.targets.push_back(seen.target_count++);
+        }
+    }
+}
+
+}  // namespace
+
+EmissionGuide guide_of_caustics(const Phase& phase, const TraceContext& context,
+                                const Settings& settings, const Radii& radii,
+                                const PilotPhotons& photons) {
+    SeenPoints seen;
+    add_seen(phase, context, settings, seen);
+    add_illuminance_points(context, seen);
+    std::vector<double> throughputs;
+    for (const BackwardPhoton& vertex : seen.vertices) {
+        throughputs.push_back(phase.luminous(vertex.throughput));
+    }
+    const BackwardMap map(phase, radii, {std::move(seen.vertices)}, context.threads);
+    const auto for_each_found = [&](const Photon& photon, const auto& use) {
+        BackwardMap::Deposits found;
+        map.find(photon, found);
+        for (const auto& part : found.by_part) {
+            for (const auto& pair : part) use(pair.backward_photon);
+        }
+    };
+
+    std::vector<double> light(throughputs.size());  // that each vertex finds
+    for (const Photon& photon : photons.photons) {
+        const double flux_lm = phase.luminous(photon.flux);
+        for_each_found(photon, [&](std::uint32_t i) { light[i] += throughputs[i] * flux_lm; });
+    }
+    std::vector<double> squares(seen.target_count);  // what a variance is compared with
+    for (std::size_t i = 0; i < light.size(); ++i) squares[seen.targets[i]] += light[i] * light[i];
+
+    const Emission emission(phase, RandomPurpose::emission);
+    std::vector<RayOfUse> rays(pilot_rays);
+    for_each_block(pilot_rays / rays_per_task, context.threads, [&](std::size_t task) {
+        ForwardTally unused(context.stage.parts());
+        const auto first = static_cast<std::uint32_t>(task) * rays_per_task;
+        for (std::uint32_t i = first; i < first + rays_per_task; ++i) {
+            RandomStream random = emission.random(i);
+            rays[i].departure = emission.depart(i, random);
+            trace_forward(phase, emission, i, Reach::first_scattering, &context.planes, unused,
+                          [&](const Photon& photon) {
+                              if (photon.history != History::caustic) return;
+                              const double flux_lm = phase.luminous(photon.flux);
+                              for_each_found(photon, [&](std::uint32_t found) {
+                                  const double square_of_all = squares[seen.targets[found]];
+                                  if (square_of_all > 0.0) {
+                                      rays[i].use +=
+                                          square(throughputs[found] * flux_lm) / square_of_all;
+                                  }
+                              });
+                          });
+        }
+    });
+    std::vector<double> fluxes_lm;
+    for (const Light& each : context.stage.parts().lights) {
+        fluxes_lm.push_back(each.luminous_flux_lm);
+    }
+    return {fluxes_lm, rays};
+}
+
+}  // namespace lucerna::optics

@@ -30,6 +30,7 @@ public:
             media_of_observer_ = phase.stage.media_at(camera->from);
         } else if (const auto* meter = std::get_if<LuminanceMeter>(&observer)) {
             media_of_observer_ = phase.stage.media_at(meter->position);
+            meter_ = true;
         }
     }
 
@@ -274,6 +275,9 @@ private:
             }
             return;
         }
+        if (meter_ && std::holds_alternative<Diffuse>(at.bsdf)) {
+            return gather_by_meter(at, histories);
+        }
         if (rays_.per_gather == 1) return gather(at, histories, path_.weight);
         const std::uint32_t patch = kernel_patch(phase_.stage, at.point);
         const bool above = at.wo.z() > 0.0;
@@ -281,7 +285,7 @@ private:
             return s.patch == patch && s.above == above && (s.weight == path_.weight).all();
         });
         if (seen == seen_.end()) {
-            seen_.push_back({patch, above, 0, path_.weight, {}});
+            seen_.push_back({patch, above, 0, at.point.position, path_.weight, {}});
             seen = seen_.end() - 1;
         }
         if (seen->rays_left == 0) {
@@ -290,6 +294,26 @@ private:
         }
         --seen->rays_left;
         add(seen->gathered, path_.weight);
+    }
+
+    // Many rays of a meter see nearly the same point: what one finds stands for the next ones that
+    // come close to it, by a tenth of the narrowest kernel. That adds about a hundredth to a bias
+    // which is small there.
+    void gather_by_meter(const GatherPoint& at, std::uint8_t histories) {
+        constexpr double near = 0.1;
+        const std::uint32_t patch = kernel_patch(phase_.stage, at.point);
+        const bool above = at.wo.z() > 0.0;
+        const auto radius_m = [&](const ForwardMap& map, const Radii& radii) {
+            return map.empty() ? infinity : radii[patch];
+        };
+        const double near_m = near * std::min(radius_m(maps_.caustic, maps_.caustic_radii),
+                                              radius_m(maps_.indirect, maps_.indirect_radii));
+        if (seen_.empty() || seen_[0].patch != patch || seen_[0].above != above ||
+            (seen_[0].position - at.point.position).squaredNorm() > near_m * near_m) {
+            seen_.assign(1, {patch, above, 0, at.point.position, path_.weight, {}});
+            seen_[0].gathered = gathered(at, histories);
+        }
+        add(seen_[0].gathered, path_.weight);
     }
 
     void gather(const GatherPoint& at, std::uint8_t histories, const Lanes& weight) {
@@ -339,12 +363,14 @@ private:
         double importance;
     };
     std::optional<CameraRays> camera_rays_;  // of a camera
-    MediumStack media_of_observer_;          // where the rays of the present bin start
-    std::vector<Branch> branches_;  // before the first scattering event, still to be followed
+    bool meter_ = false;
+    MediumStack media_of_observer_;  // where the rays of the present bin start
+    std::vector<Branch> branches_;   // before the first scattering event, still to be followed
     struct Seen {
         std::uint32_t patch;
         bool above;
         std::uint32_t rays_left;
+        Vec3 position;
         Lanes weight;
         Gathered gathered;
     };

@@ -13,13 +13,6 @@ constexpr std::uint64_t points_per_observer = 1 << 14;
 constexpr std::uint8_t all_light =
     mask(History::direct) | mask(History::caustic) | mask(History::indirect);
 
-/// Points whose kernels observers gather from, as vertices that take all light.
-struct SeenPoints {
-    std::vector<BackwardPhoton> vertices;
-    std::vector<std::uint32_t> targets;  // of each: what wants a variance of its own to be small
-    std::uint32_t target_count = 0;
-};
-
 // Where the rays of an observer meet the first scattering surface.
 void add_seen(const Phase& phase, const TraceContext& context, const Settings& settings,
               SeenPoints& seen) {
@@ -29,10 +22,8 @@ void add_seen(const Phase& phase, const TraceContext& context, const Settings& s
     constexpr Collection to_first_event{.first_deposit = all_light};
     const auto& observers = context.readings.observers();
     for (std::size_t i = 0; i < observers.size(); ++i) {
-        if (std::holds_alternative<IlluminancePoints>(
-                context.stage.parts().observers[observers[i].observer])) {
-            continue;
-        }
+        const Observer& observer = context.stage.parts().observers[observers[i].observer];
+        if (std::holds_alternative<IlluminancePoints>(observer)) continue;
         std::vector<BinBlock> blocks;
         std::uint64_t all = 0;
         for (const BinBlock& block : rays.blocks()) {
@@ -57,7 +48,8 @@ void add_seen(const Phase& phase, const TraceContext& context, const Settings& s
         for (const auto& block : stored) {
             seen.vertices.insert(seen.vertices.end(), block.begin(), block.end());
         }
-        seen.targets.resize(seen.vertices.size(), seen.target_count++);
+        seen.targets.resize(seen.vertices.size(), seen.target_count());
+        seen.of_images.push_back(std::holds_alternative<Camera>(observer));
     }
 }
 
@@ -74,24 +66,29 @@ void add_illuminance_points(const TraceContext& context, SeenPoints& seen) {
                  .bin = 0,
                  .accepts = all_light,
                  .hero_only = false});
-            seen.targets.push_back(seen.target_count++);
+            seen.targets.push_back(seen.target_count());
+            seen.of_images.push_back(false);
         }
     }
 }
 
 }  // namespace
 
-EmissionGuide guide_of_caustics(const Phase& phase, const TraceContext& context,
-                                const Settings& settings, const Radii& radii,
-                                const PilotPhotons& photons) {
+SeenPoints seen_points(const Phase& phase, const TraceContext& context, const Settings& settings) {
     SeenPoints seen;
     add_seen(phase, context, settings, seen);
     add_illuminance_points(context, seen);
+    return seen;
+}
+
+EmissionGuide guide_of_caustics(const Phase& phase, const TraceContext& context,
+                                const SeenPoints& seen, const Radii& radii,
+                                const PilotPhotons& photons) {
     std::vector<double> throughputs;
     for (const BackwardPhoton& vertex : seen.vertices) {
         throughputs.push_back(phase.luminous(vertex.throughput));
     }
-    const BackwardMap map(phase, radii, {std::move(seen.vertices)}, context.threads);
+    const BackwardMap map(phase, radii, {seen.vertices}, context.threads);
     const auto for_each_found = [&](const Photon& photon, const auto& use) {
         BackwardMap::Deposits found;
         map.find(photon, found);
@@ -105,7 +102,7 @@ EmissionGuide guide_of_caustics(const Phase& phase, const TraceContext& context,
         const double flux_lm = phase.luminous(photon.flux);
         for_each_found(photon, [&](std::uint32_t i) { light[i] += throughputs[i] * flux_lm; });
     }
-    std::vector<double> squares(seen.target_count);  // what a variance is compared with
+    std::vector<double> squares(seen.target_count());  // what a variance is compared with
     for (std::size_t i = 0; i < light.size(); ++i) squares[seen.targets[i]] += light[i] * light[i];
 
     const Emission emission(phase, RandomPurpose::emission);

@@ -66,8 +66,8 @@ public:
     /// Scattered radiance at a point from the photons around it.
     Gathered gather(const Phase& phase, const Radii& radii, const GatherPoint& at) const;
 
-    bool empty() const { return photons_.empty(); }
     std::size_t size() const { return photons_.size(); }
+    bool empty() const { return photons_.empty(); }
     std::size_t bytes() const { return photons_.size() * sizeof(Photon) + grid_.bytes(); }
 
 private:

@@ -10,6 +10,8 @@ namespace lucerna::optics {
 namespace {
 
 constexpr std::uint32_t min_pilot_rays = 1 << 14, max_pilot_rays = 1 << 15;
+// That tell how wide the kernels of sensors may be.
+constexpr std::uint32_t rays_to_widen = 1 << 16;
 // What the choice of the collection for images is made from.
 constexpr std::uint32_t pilot_phases = 3;
 constexpr std::size_t pilot_blocks = 24;
@@ -41,6 +43,35 @@ std::uint32_t at_least_min(std::uint64_t rays) {
 
 bool is_camera(const TraceContext& context, const ObserverBins& bins) {
     return std::holds_alternative<Camera>(context.stage.parts().observers[bins.observer]);
+}
+
+// Kernels of caustics that sensors read.
+void widen_around_sensors(const TraceContext& context, const Settings& settings,
+                          const SeenPoints& seen, Plan& plan) {
+    constexpr std::size_t most_points = 16;  // of a target
+    std::vector<SurfacePoint> points;
+    for (std::uint32_t target = 0; target < seen.target_count(); ++target) {
+        if (seen.of_images[target]) continue;
+        std::vector<SurfacePoint> own;
+        for (std::size_t i = 0; i < seen.vertices.size(); ++i) {
+            if (seen.targets[i] == target) own.push_back(seen.vertices[i].point);
+        }
+        const std::size_t step = std::max<std::size_t>(1, own.size() / most_points);
+        for (std::size_t i = 0; i < own.size(); i += step) points.push_back(own[i]);
+    }
+    if (points.empty()) return;
+    const std::uint32_t rays = std::max(plan.caustic_rays, rays_to_widen);
+    const auto pilot = [&](std::uint32_t number) {
+        const Phase phase(context.stage, settings.seed, number);
+        const Emission emission(phase, RandomPurpose::caustic, plan.caustic_guide, rays);
+        ForwardTally unused(context.stage.parts());
+        return PilotPhotons{trace_photons(phase, context, emission, Reach::first_scattering,
+                                          mask(History::caustic), rays, unused),
+                            rays};
+    };
+    plan.caustic_radii = widened_around(context.stage, context.planes, plan.caustic_radii,
+                                        pilot(pilot_phase - pilot_phases - 2),
+                                        pilot(pilot_phase - pilot_phases - 3), points);
 }
 
 // Radii and rays of the maps, from the rays of a pilot phase.
@@ -76,18 +107,14 @@ void choose_radii(const TraceContext& context, const Settings& settings, Plan& p
     };
     choose_caustic_radii(of(History::caustic));
     if (plan.gathers(stage, context.planes, History::caustic)) {
-        plan.caustic_guide =
-            guide_of_caustics(phase, context, settings, plan.caustic_radii, photons);
+        const SeenPoints seen = seen_points(phase, context, settings);
+        plan.caustic_guide = guide_of_caustics(phase, context, seen, plan.caustic_radii, photons);
         if (!plan.caustic_guide.empty()) {
             const Emission guided(phase, RandomPurpose::pilot, plan.caustic_guide);
-            const Radii unguided = plan.caustic_radii;
             choose_caustic_radii({trace_photons(phase, context, guided, Reach::first_scattering,
                                                 mask(History::caustic), rays, unused),
                                   rays});
-            // Meters have little bias already: there more photons shall lower the noise alone.
-            if (meters) {
-                plan.caustic_radii = plan.caustic_radii.or_wider(unguided, stage.patch_count());
-            }
+            widen_around_sensors(context, settings, seen, plan);
         }
     }
     plan.hidden_radii = narrow_radii(stage, context.planes, photons,

@@ -70,21 +70,15 @@ void normalise(std::vector<Arrival>& photons) {
     for (Arrival& photon : photons) photon.flux *= sum / squares;
 }
 
-// What is asked of a radius: the bias as a share of the light, root mean square over the points,
-// and how many standard deviations of pilot noise a larger one may be explained by.
-struct BiasLimit {
-    double share;
-    double noise;
-};
-// A sensor's kernel is widened only where its bias is shown to be small; about the square of it is
-// left when it is taken off. A surface's is narrowed only where it is shown to be large.
-constexpr BiasLimit of_sensors{0.03, 0.0};
-constexpr BiasLimit of_surfaces{0.15, 2.0};
+// A surface's kernel is narrowed only where its bias is shown to be large: as a share of the light,
+// root mean square over the points, with so many standard deviations of pilot noise allowed for.
+constexpr double bias_of_surfaces = 0.15;
+constexpr double noise_allowed = 2.0;
 
 // The widest radius, at most limit_m, whose bias keeps within the limit at the points, and that of
 // the next narrower one as well: a lucky look must not decide.
 double radius_of_small_bias(const std::vector<Arrival>& photons, const std::vector<Vec3>& points,
-                            double limit_m, const BiasLimit& limit) {
+                            double limit_m) {
     constexpr std::size_t most_points = 64;
     constexpr double least_photons = 4.0;  // per point
     const std::size_t stride = std::max<std::size_t>(1, points.size() / most_points);
@@ -112,7 +106,8 @@ double radius_of_small_bias(const std::vector<Arrival>& photons, const std::vect
         }
         // With k photons at each of n points, bias_square has the standard deviation k sqrt(32 n).
         const double noise = variance * std::sqrt(32.0 / n);
-        const bool passed = bias_square <= limit.share * limit.share * square + limit.noise * noise;
+        const bool passed =
+            bias_square <= bias_of_surfaces * bias_of_surfaces * square + noise_allowed * noise;
         if (passed && wider_passed) return std::numbers::sqrt2 * radius_m;
         wider_passed = passed;
         if (photon_count < least_photons * n) break;
@@ -120,23 +115,64 @@ double radius_of_small_bias(const std::vector<Arrival>& photons, const std::vect
     return radius_m;
 }
 
-// @param photons  of the pilot trace in a kernel; what surfaces and sensors ask for comes on top.
-Radii radii_of(const Stage& stage, const SensorPlanes& planes, const PilotPhotons& pilot,
-               const PhotonsPerKernel& photons, bool seen) {
+// The same without a look at noise: the product of two independent measurements of the bias has its
+// square as expectation.
+double radius_of_small_bias(const std::vector<Arrival>& one, const std::vector<Arrival>& other,
+                            const std::vector<Vec3>& points, double limit_m) {
+    constexpr double share = 0.02;
+    constexpr double least_photons = 16.0;  // per point
+    std::vector<std::array<LightByRadius, 2>> of_points;
+    for (const Vec3& point : points) {
+        of_points.push_back(
+            {light_around(point, one, limit_m), light_around(point, other, limit_m)});
+    }
+    bool wider_passed = false;
+    double radius_m = limit_m;
+    for (std::size_t step = 0; step < radius_steps; ++step, radius_m /= std::numbers::sqrt2) {
+        double photon_count = 0.0;
+        double bias_square = 0.0;
+        double square = 0.0;
+        for (const auto& [a, b] : of_points) {
+            bias_square += 4.0 * (a.flux[step] - 2.0 * a.flux[step + 1]) *
+                           (b.flux[step] - 2.0 * b.flux[step + 1]);
+            square += a.flux[step] * b.flux[step];
+            photon_count += a.flux[step];
+        }
+        const bool passed = bias_square <= share * share * square;
+        if (passed && wider_passed) return std::numbers::sqrt2 * radius_m;
+        wider_passed = passed;
+        if (photon_count < least_photons * static_cast<double>(points.size())) break;
+    }
+    return radius_m;
+}
+
+std::vector<std::vector<Arrival>> arrivals_by_patch(const Stage& stage, const SensorPlanes& planes,
+                                                    const PilotPhotons& pilot) {
     std::vector<std::vector<Arrival>> arrivals(stage.patch_count() + planes.count());
     for (const Photon& photon : pilot.photons) {
         arrivals[kernel_patch(stage, photon.point)].push_back(
             {photon.point.position, static_cast<double>(photon.flux.sum())});
     }
     for (auto& of_patch : arrivals) normalise(of_patch);
-    const double scene_limit_m = stage.caster().scene_radius_m() / 20.0;
+    return arrivals;
+}
+
+// No kernel of a patch is wider.
+double limit_of_patch_m(const Stage& stage, const SensorPlanes& planes, std::uint32_t patch) {
+    return patch >= stage.patch_count() ? planes.margin_m()
+                                        : std::min(stage.caster().scene_radius_m() / 20.0,
+                                                   std::sqrt(stage.patch_area_m2(patch)) / 8.0);
+}
+
+// @param photons  of the pilot trace in a kernel; what surfaces and sensors ask for comes on top.
+Radii radii_of(const Stage& stage, const SensorPlanes& planes, const PilotPhotons& pilot,
+               const PhotonsPerKernel& photons, bool seen) {
+    const auto arrivals = arrivals_by_patch(stage, planes, pilot);
     std::vector<double> radii_m;
     radii_m.reserve(arrivals.size());
     for (std::uint32_t patch = 0; patch < arrivals.size(); ++patch) {
         const bool sensor = patch >= stage.patch_count();
-        const double limit_m =
-            sensor ? planes.margin_m()
-                   : std::min(scene_limit_m, std::sqrt(stage.patch_area_m2(patch)) / 8.0);
+        const double limit_m = limit_of_patch_m(stage, planes, patch);
         double radius_m = limit_m;
         const double photons_per_kernel = sensor ? photons.of_sensors : photons.of_surfaces;
         if (arrivals[patch].size() > 2 * neighbours && photons_per_kernel < infinity) {
@@ -144,17 +180,10 @@ Radii radii_of(const Stage& stage, const SensorPlanes& planes, const PilotPhoton
             const double square_m2 = median_square_distance(arrivals[patch]);
             radius_m = std::min(limit_m, std::sqrt(photons_per_kernel * square_m2 / neighbours));
         }
-        if (sensor) {
-            std::vector<Vec3> points;
-            for (const auto& point : planes.points_of(patch - stage.patch_count())) {
-                points.push_back(point.position);
-            }
-            radius_m = std::max(radius_m,
-                                radius_of_small_bias(arrivals[patch], points, limit_m, of_sensors));
-        } else if (seen && arrivals[patch].size() > 2 * neighbours) {
+        if (seen && !sensor && arrivals[patch].size() > 2 * neighbours) {
             std::vector<Vec3> points;
             for (const Arrival& photon : arrivals[patch]) points.push_back(photon.position);
-            radius_m = radius_of_small_bias(arrivals[patch], points, radius_m, of_surfaces);
+            radius_m = radius_of_small_bias(arrivals[patch], points, radius_m);
         }
         radii_m.push_back(radius_m);
     }
@@ -172,14 +201,6 @@ Radii Radii::at_phase(std::uint32_t number) const {
     return Radii(std::move(shrunk));
 }
 
-Radii Radii::or_wider(const Radii& others, std::uint32_t patches) const {
-    Radii wider = *this;
-    for (std::uint32_t patch = 0; patch < patches; ++patch) {
-        wider.radii_m_[patch] = std::max(radii_m_[patch], others[patch]);
-    }
-    return wider;
-}
-
 Radii narrow_radii(const Stage& stage, const SensorPlanes& planes, const PilotPhotons& pilot,
                    const PhotonsPerKernel& photons, std::uint32_t rays, bool seen) {
     const double share = static_cast<double>(pilot.rays) / rays;
@@ -189,6 +210,26 @@ Radii narrow_radii(const Stage& stage, const SensorPlanes& planes, const PilotPh
 
 Radii wide_radii(const Stage& stage, const SensorPlanes& planes, const PilotPhotons& pilot) {
     return radii_of(stage, planes, pilot, {infinity, infinity}, true);
+}
+
+Radii widened_around(const Stage& stage, const SensorPlanes& planes, const Radii& radii,
+                     const PilotPhotons& one, const PilotPhotons& other,
+                     std::span<const SurfacePoint> points) {
+    const auto of_one = arrivals_by_patch(stage, planes, one);
+    const auto of_other = arrivals_by_patch(stage, planes, other);
+    std::vector<std::vector<Vec3>> of_patches(of_one.size());
+    for (const SurfacePoint& point : points) {
+        of_patches[kernel_patch(stage, point)].push_back(point.position);
+    }
+    std::vector<double> widened;
+    for (std::uint32_t patch = 0; patch < of_patches.size(); ++patch) {
+        widened.push_back(radii[patch]);
+        if (of_patches[patch].empty()) continue;
+        widened.back() = std::max(
+            widened.back(), radius_of_small_bias(of_one[patch], of_other[patch], of_patches[patch],
+                                                 limit_of_patch_m(stage, planes, patch)));
+    }
+    return Radii(std::move(widened));
 }
 
 std::uint32_t rays_for(const Stage& stage, const PilotPhotons& pilot, const Radii& radii,

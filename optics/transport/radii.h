@@ -1,6 +1,7 @@
 // Integration radii of the photon maps: adapted to each patch by pilot rays, then shrinking.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "optics/transport/forward_trace.h"
@@ -22,15 +23,11 @@ public:
     /// left is O(r^4): alpha = 4/5 balances that, and the error falls with N^-0.4, not N^-0.33.
     Radii at_phase(std::uint32_t number) const;
 
-    /// Those of the first patches no narrower than others.
-    Radii or_wider(const Radii& others, std::uint32_t patches) const;
-
 private:
     std::vector<double> radii_m_;
 };
 
-/// Photons of a trace with `rays` rays whose results are not used but for what follows. The rays
-/// are independent of each other.
+/// Photons of a trace with `rays` rays whose results are not used but for what follows.
 struct PilotPhotons {
     std::vector<Photon> photons;
     std::uint32_t rays;
@@ -41,22 +38,29 @@ struct PhotonsPerKernel {
     double of_surfaces, of_sensors;
 };
 
-/// Radii at which a kernel holds about `photons` photons in a phase with `rays` rays.
+/// Radii at which a kernel holds about `photons` photons in a phase with `rays` rays. The rays of
+/// the pilot are independent of each other.
 ///
 /// The density is the median of what the photons of a patch see around themselves: it follows the
 /// places where the light is, so that a caustic on a wide floor gets the radius of the caustic.
 /// No radius exceeds an eighth of the patch's size, nor a 20th of the scene's radius.
 ///
-/// A sensor gathers once per phase for all its rays, and can afford a wide kernel: it gets the
-/// widest that shows a bias of 3 % of the light at its points at most, root mean square, so that
-/// less than 1 % is left when that is taken off. Where kernels are `seen`, those of surfaces are
-/// narrowed until they show no more than 15 %.
+/// Where kernels are `seen`, those of surfaces are narrowed until they show no more bias than 15 %.
 Radii narrow_radii(const Stage& stage, const SensorPlanes& planes, const PilotPhotons& pilot,
                    const PhotonsPerKernel& photons, std::uint32_t rays, bool seen);
 
 /// The same for seen surfaces whatever number of photons their kernels hold: as wide as the limits
 /// and the bias allow.
 Radii wide_radii(const Stage& stage, const SensorPlanes& planes, const PilotPhotons& pilot);
+
+/// The same with wider kernels around points that are to be read with little bias: as wide as keeps
+/// the bias at the points of a patch, root mean square, below 2 % of the light, so that about the
+/// square of it is left when it is taken off. Two pilots that are independent of each other tell
+/// the square of the bias by a product, whatever the noise of each is.
+/// @param points  of sensor planes and surfaces.
+Radii widened_around(const Stage& stage, const SensorPlanes& planes, const Radii& radii,
+                     const PilotPhotons& one, const PilotPhotons& other,
+                     std::span<const SurfacePoint> points);
 
 /// Number of forward rays of a phase for which kernels of surfaces hold about `photons_per_kernel`
 /// photons, in the mean over the photons of the pilot trace; 0 without photons.

@@ -67,8 +67,10 @@ double student_t(double coverage, double degrees) {
 
 double Uncertain::expanded_uncertainty(double coverage) const {
     if (!(degrees_of_freedom >= 1.0)) return std::numeric_limits<double>::infinity();
-    if (standard_error == 0.0) return 0.0;
-    return student_t(1.0 - (1.0 - coverage) / candidates, degrees_of_freedom) * standard_error;
+    const double probability = 1.0 - (1.0 - coverage) / candidates;
+    const double of_noise =
+        standard_error == 0.0 ? 0.0 : student_t(probability, degrees_of_freedom) * standard_error;
+    return std::hypot(of_noise, probability * bias_left);
 }
 
 void Estimate::add(double value, double bias) {
@@ -107,6 +109,12 @@ double Estimate::bias() const {
 
 double Estimate::bias_standard_error() const {
     return std::sqrt(variance_of_mean(bias_sum_, bias_sum_of_squares_, count_));
+}
+
+double Estimate::bias_left() const {
+    // The square of a measured bias holds that of its noise.
+    const double square = bias() * bias() - std::pow(bias_standard_error(), 2);
+    return square > 0.0 ? 0.5 * std::sqrt(square) : 0.0;
 }
 
 double Estimate::standard_error(double correction) const {

@@ -17,8 +17,12 @@ struct Uncertain {
     /// Among how many candidates the value was chosen as the least or the greatest, so that its
     /// noise was chosen too; the uncertainty covers all of them (Bonferroni's inequality).
     double candidates = 1.0;
+    /// Half width of the interval that what the correction of a bias leaves behind lies in, evenly
+    /// (GUM, JCGM 100:2008, 4.3.7).
+    double bias_left = 0.0;
 
-    /// Half width U of the interval value +/- U that holds the truth with this probability.
+    /// Half width U of the interval value +/- U that holds the truth with this probability: that of
+    /// noise and that of bias, added as squares.
     double expanded_uncertainty(double coverage = 0.95) const;
 };
 
@@ -28,8 +32,10 @@ struct Uncertain {
 /// The phase is the statistical unit: photons and wavelengths are shared within it, so an error bar
 /// taken inside a phase would be too small. `bias` runs beside the value: the kernel bias of the
 /// same phase as measured from two radii of the same photons. The value that is reported has the
-/// measured bias taken off: what is left of it is of fourth order in the radius, and the noise of
-/// the correction is part of the spread over phases.
+/// measured bias taken off, and the noise of the correction is part of the spread over phases. What
+/// is left is of fourth order in the radius where the light is smooth. Beside an edge that the wide
+/// kernel reaches and the narrow one does not, half of the measured bias is left, which is taken as
+/// its bound.
 class Estimate {
 public:
     void add(double value, double bias = 0.0);
@@ -43,7 +49,11 @@ public:
     /// over phases; infinite for fewer than two phases.
     double value(double correction = 1.0) const { return mean() - correction * bias(); }
     double standard_error(double correction = 1.0) const;
-    Uncertain corrected() const { return {value(), standard_error(), degrees_of_freedom()}; }
+    Uncertain corrected() const {
+        return {value(), standard_error(), degrees_of_freedom(), 1.0, bias_left()};
+    }
+    /// What is left of the bias at most, by the measured bias less its noise.
+    double bias_left() const;
     /// Half width U of the interval value() +/- U.
     double expanded_uncertainty(double coverage = 0.95) const;
 

@@ -35,6 +35,8 @@ public:
 
 private:
     void read_area(YamlMap& map);
+    void read_sky(YamlMap& map);
+    std::optional<Sky> read_sky_type(YamlMap& map);
     void read_point(YamlMap& map);
     void read_beam(YamlMap& map);
     void read_luminaire(YamlMap& map);
@@ -104,6 +106,79 @@ void LightReader::read_area(YamlMap& map) {
     // Lambertian: M = pi L (ILV 17-21-081).
     const double extent = form.key == "flux" ? 1.0 : form.key == "exitance" ? area : pi * area;
     add(map, light, relative, flux_of(*stated, extent));
+}
+
+std::optional<Sky> LightReader::read_sky_type(YamlMap& map) {
+    const YamlCursor cursor =
+        map.required("sky", "a type of the CIE standard general sky from 1 to 15, or overcast");
+    const YamlCursor sun_cursor = map.optional("sun");
+    const Vec3 sun = sun_cursor ? read_direction(sun_cursor) : Vec3(Vec3::UnitZ());
+    if (!cursor) return {};
+    const bool overcast = cursor.is_scalar() && cursor.word() == "overcast";
+    const int type = overcast ? 0 : static_cast<int>(read_count(cursor, 1, 15));
+    if (!context_.up) {
+        cursor.complain(
+            "the scene does not say where 'up' is; expected the key 'up' of the scene, such as "
+            "\"up: z\"");
+        return {};
+    }
+    if (!overcast && type == 0) return {};
+    const bool needs_sun = !overcast && Sky::depends_on_sun(type);
+    if (needs_sun && !sun_cursor) {
+        map.cursor().complain(fmt::format(
+            "the key 'sun' is missing: a sky of type {} is brighter around the sun; expected the "
+            "direction toward it, such as [1, 0.5, 1]",
+            type));
+        return {};
+    }
+    if (!needs_sun && sun_cursor) {
+        sun_cursor.complain("this sky is the same in all azimuths; expected no 'sun'");
+        return {};
+    }
+    if (!sun.allFinite()) return {};
+    if (needs_sun && !(sun.dot(*context_.up) > 0.0)) {
+        sun_cursor.complain("the sun is not above the horizon; expected a direction toward it");
+        return {};
+    }
+    return overcast ? Sky::overcast(*context_.up) : Sky::general(type, *context_.up, sun);
+}
+
+void LightReader::read_sky(YamlMap& map) {
+    const YamlCursor on = map.required("on", "the name of the opening, a rectangle or a disk");
+    const auto object_id = objects_.find(on);
+    const auto side = map.required("side",
+                                   "front (where its normal points) or back: the side on "
+                                   "which the light comes in")
+                          .choice({"front", "back"});
+    const std::optional<Sky> sky = read_sky_type(map);
+    const auto form = map.exactly_one({"illuminance", "zenith"});
+    const auto stated = read_quantity(
+        form.value, form.key == "zenith" ? dimension::luminance : dimension::irradiance,
+        Accept::positive);
+    const double ground =
+        read_value(map.required("ground", "the reflectance of the ground, such as 20 %"),
+                   dimension::fraction, Accept::up_to_one);
+    const auto relative = relative_spectrum(map);
+    if (!object_id) return;
+    const Object& object = parts_.objects[*object_id];
+    const auto* rectangle = std::get_if<Rectangle>(&object.shape);
+    const auto* disk = std::get_if<Disk>(&object.shape);
+    if (!rectangle && !disk) {
+        on.complain(fmt::format("'{}' is no rectangle and no disk", object.name));
+        return;
+    }
+    const auto [earlier, is_new] = emitters_.emplace(*object_id, on.where().line);
+    if (!is_new)
+        on.complain(fmt::format("'{}' emits already by line {}", object.name, earlier->second));
+    if (!sky || !stated || !side || std::isnan(ground)) return;
+
+    Vec3 inward = rectangle ? Vec3(rectangle->edge_u.cross(rectangle->edge_v).normalized())
+                            : Vec3(disk->normal);
+    if (side == "back") inward = -inward;
+    const auto view = std::make_shared<const SkyView>(*sky, inward, ground);
+    const double zenith = form.key == "zenith" ? 1.0 : 1.0 / sky->horizontal_sr();
+    add(map, AreaLight{*object_id, object.shape, false, side == "back", view}, relative,
+        flux_of(*stated, zenith * view->exitance_sr() * area_m2(object.shape)));
 }
 
 void LightReader::read_point(YamlMap& map) {
@@ -198,9 +273,10 @@ void LightReader::read(const YamlCursor& entry) {
     YamlMap map(entry);
     name_ = names_.read(map);
     const auto type = map.required("type", "the type of the light")
-                          .choice({"area", "point", "beam", "luminaire"});
+                          .choice({"area", "point", "beam", "luminaire", "sky"});
     if (!type) return;
     if (*type == "area") read_area(map);
+    if (*type == "sky") read_sky(map);
     if (*type == "point") read_point(map);
     if (*type == "beam") read_beam(map);
     if (*type == "luminaire") read_luminaire(map);

@@ -25,7 +25,7 @@ std::string range(const spectral::Spectrum& spectrum) {
 
 std::string described(const LightSource& source) {
     struct Describe {
-        std::string operator()(const AreaLight&) const { return "area"; }
+        std::string operator()(const AreaLight& light) const { return light.sky ? "sky" : "area"; }
         std::string operator()(const PointLight&) const { return "point"; }
         std::string operator()(const BeamLight&) const { return "beam"; }
         std::string operator()(const Luminaire&) const { return "luminaire"; }

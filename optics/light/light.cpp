@@ -21,9 +21,15 @@ bool emits_toward(const AreaLight& light, double cosine) {
     return light.inward ? cosine < 0.0 : cosine > 0.0;
 }
 
-// L / Phi of a Lambertian surface: Phi = pi L A per emitting side.
-double lambertian_factor(const AreaLight& light) {
-    return 1.0 / (pi * area_m2(light.shape) * (light.both_sides ? 2.0 : 1.0));
+// Radiance over that of a Lambertian surface of the same flux, toward a direction that leaves it.
+double over_lambertian(const AreaLight& light, const Vec3& leaving) {
+    return light.sky ? light.sky->over_lambertian(-leaving) : 1.0;
+}
+
+// L / Phi; of a Lambertian surface Phi = pi L A per emitting side.
+double area_radiance_factor(const AreaLight& light, const Vec3& leaving) {
+    return over_lambertian(light, leaving) /
+           (pi * area_m2(light.shape) * (light.both_sides ? 2.0 : 1.0));
 }
 
 EmittedRay emit_from(const AreaLight& light, double u1, double u2, double u3, double u4) {
@@ -36,7 +42,8 @@ EmittedRay emit_from(const AreaLight& light, double u1, double u2, double u3, do
     }
     const Vec3 local = sample_cosine_hemisphere(u3, u4);
     const Frame frame(against ? Vec3(-point.normal) : point.normal);
-    return {{point.position, frame.to_world(local)}, point, 1.0};
+    const Vec3 direction = frame.to_world(local);
+    return {{point.position, direction}, point, over_lambertian(light, direction)};
 }
 
 // The cone under which a sphere is seen from a point outside it.
@@ -83,7 +90,7 @@ std::optional<Illumination> illuminate_by_cone(const AreaLight& light, const Sph
     result.position = sphere.centre + sphere.radius_m * normal;
     result.surface = {result.position, normal, light.object, 0, 0};
     result.pdf_solid_angle = 1.0 / cone.solid_angle_sr;
-    result.factor = lambertian_factor(light) * cone.solid_angle_sr;
+    result.factor = area_radiance_factor(light, -direction) * cone.solid_angle_sr;
     return result;
 }
 
@@ -104,7 +111,7 @@ std::optional<Illumination> illuminate_from(const AreaLight& light, const Vec3& 
     result.position = point.position;
     result.surface = point;
     result.pdf_solid_angle = distance2_m2 / (area_m2(light.shape) * std::abs(cosine));
-    result.factor = lambertian_factor(light) / result.pdf_solid_angle;
+    result.factor = area_radiance_factor(light, -direction) / result.pdf_solid_angle;
     return result;
 }
 
@@ -273,7 +280,8 @@ double radiance_factor(const LightSource& light, const SurfacePoint& at, const V
     const double cosine = at.normal.dot(direction);
     return std::visit(
         Overloaded{[&](const AreaLight& area) {
-                       return emits_toward(area, cosine) ? lambertian_factor(area) : 0.0;
+                       return emits_toward(area, cosine) ? area_radiance_factor(area, direction)
+                                                         : 0.0;
                    },
                    [](const PointLight&) { return 0.0; }, [](const BeamLight&) { return 0.0; },
                    [&](const Luminaire& lamp) {

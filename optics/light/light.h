@@ -15,16 +15,19 @@
 #include "optics/geometry/shape.h"
 #include "optics/light/intensity_distribution.h"
 #include "optics/light/luminous_faces.h"
+#include "optics/light/sky.h"
 #include "optics/material/bsdf.h"
 
 namespace lucerna::optics {
 
-/// Lambertian emission from the surface of an object, uniform over its area.
+/// Emission from the surface of an object, uniform over its area: Lambertian, or that of a sky
+/// behind a flat opening, which emits on one side.
 struct AreaLight {
     ObjectId object;
     Shape shape;              ///< of that object
     bool both_sides = false;  ///< sheets only; else it emits on the side of the normal
     bool inward = false;      ///< emits against the normal (the inner side of a closed shape)
+    std::shared_ptr<const SkyView> sky = nullptr;  ///< none: Lambertian
 };
 
 /// Isotropic point source.

@@ -127,7 +127,7 @@ private:
         const Vec3 wo = Vec3::UnitZ();
         const Bsdf& diffuser = phase_.stage.parts().bsdfs[phase_.stage.white_diffuser()];
         const SurfaceOptics optics = optics_at(phase_, no_object, no_object, false, 0);
-        use(GatherPoint{point, frame, wo, diffuser, optics, sensor.clearance_m});
+        use(GatherPoint{point, frame, wo, diffuser, optics, sensor.clearance_m, sensor.index});
     }
 
     void gather_at_sensor(const IlluminancePoints& points, const SensorPlanes::Point& sensor) {

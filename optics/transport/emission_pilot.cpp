@@ -63,7 +63,7 @@ void add_illuminance_points(const TraceContext& context, SeenPoints& seen) {
                  .bsdf = context.stage.white_diffuser(),
                  .medium_above = no_object,
                  .medium_below = no_object,
-                 .bin = 0,
+                 .bin = point.index,
                  .accepts = all_light,
                  .hero_only = false});
             seen.targets.push_back(seen.target_count());

@@ -8,9 +8,9 @@ namespace lucerna::optics {
 
 /// Points whose kernels observers gather from, as vertices that take all light.
 struct SeenPoints {
-    std::vector<BackwardPhoton> vertices;
-    std::vector<std::uint32_t> targets;  ///< of each: what wants its own variance to be small
-    std::vector<bool> of_images;         ///< of each target
+    std::vector<BackwardPhoton> vertices;  ///< `bin` of an illuminance point: its index
+    std::vector<std::uint32_t> targets;    ///< of each: what wants its own variance to be small
+    std::vector<bool> of_images;           ///< of each target
     std::uint32_t target_count() const { return static_cast<std::uint32_t>(of_images.size()); }
 };
 

@@ -60,7 +60,8 @@ Gathered ForwardMap::gather(const Phase& phase, const Radii& radii, const Gather
     const Stage& stage = phase.stage;
     const std::uint32_t patch = kernel_patch(stage, at.point);
     const double cell_m = 2.0 * radii[patch];
-    const double radius_m = std::min(radii[patch], at.most_radius_m);
+    const double radius_m =
+        std::min({radii[patch], radii.of_point(at.sensor_point), at.most_radius_m});
     const double inner_m = inner_radius_factor * radius_m;
     const Vec3 reach = Vec3::Constant(radius_m);
     const CellKey low = CellKey::at(patch, at.point.position - reach, cell_m);

@@ -40,7 +40,8 @@ struct GatherPoint {
     const Vec3& wo;  ///< local direction toward the observer
     const Bsdf& bsdf;
     const SurfaceOptics& optics;
-    double most_radius_m = infinity;  ///< of the kernel
+    double most_radius_m = infinity;   ///< of the kernel
+    std::uint32_t sensor_point = ~0u;  ///< index of a point of a sensor plane, if it is one
 };
 
 struct Gathered {

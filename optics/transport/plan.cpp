@@ -12,6 +12,7 @@ namespace {
 constexpr std::uint32_t min_pilot_rays = 1 << 14, max_pilot_rays = 1 << 15;
 // That tell how wide the kernels of sensors may be.
 constexpr std::uint32_t rays_to_widen = 1 << 16;
+constexpr double default_sensor_accuracy = 0.02;  // where none is asked for
 // What the choice of the collection for images is made from.
 constexpr std::uint32_t pilot_phases = 3;
 constexpr std::size_t pilot_blocks = 24;
@@ -49,18 +50,23 @@ bool is_camera(const TraceContext& context, const ObserverBins& bins) {
 void widen_around_sensors(const TraceContext& context, const Settings& settings,
                           const SeenPoints& seen, Plan& plan) {
     constexpr std::size_t most_points = 16;  // of a target
-    std::vector<SurfacePoint> points;
+    std::vector<ReadPoint> points;
     for (std::uint32_t target = 0; target < seen.target_count(); ++target) {
         if (seen.of_images[target]) continue;
-        std::vector<SurfacePoint> own;
+        std::vector<ReadPoint> own;
         for (std::size_t i = 0; i < seen.vertices.size(); ++i) {
-            if (seen.targets[i] == target) own.push_back(seen.vertices[i].point);
+            if (seen.targets[i] == target)
+                own.push_back({seen.vertices[i].point, seen.vertices[i].bin});
         }
         const std::size_t step = std::max<std::size_t>(1, own.size() / most_points);
         for (std::size_t i = 0; i < own.size(); i += step) points.push_back(own[i]);
     }
     if (points.empty()) return;
     const std::uint32_t rays = std::max(plan.caustic_rays, rays_to_widen);
+    double accuracy = settings.sensor_accuracy.value_or(default_sensor_accuracy);
+    for (const SensorTarget& target : settings.sensor_targets) {
+        if (target.relative > 0.0) accuracy = std::min(accuracy, target.relative);
+    }
     const auto pilot = [&](std::uint32_t number) {
         const Phase phase(context.stage, settings.seed, number);
         const Emission emission(phase, RandomPurpose::caustic, plan.caustic_guide, rays);
@@ -71,7 +77,7 @@ void widen_around_sensors(const TraceContext& context, const Settings& settings,
     };
     plan.caustic_radii = widened_around(context.stage, context.planes, plan.caustic_radii,
                                         pilot(pilot_phase - pilot_phases - 2),
-                                        pilot(pilot_phase - pilot_phases - 3), points);
+                                        pilot(pilot_phase - pilot_phases - 3), points, accuracy);
 }
 
 // Radii and rays of the maps, from the rays of a pilot phase.

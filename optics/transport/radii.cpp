@@ -115,35 +115,39 @@ double radius_of_small_bias(const std::vector<Arrival>& photons, const std::vect
     return radius_m;
 }
 
-// The same without a look at noise: the product of two independent measurements of the bias has its
-// square as expectation.
-double radius_of_small_bias(const std::vector<Arrival>& one, const std::vector<Arrival>& other,
-                            const std::vector<Vec3>& points, double limit_m) {
-    constexpr double share = 0.02;
-    constexpr double least_photons = 16.0;  // per point
+// The radius of least error at the points. Two independent measurements of the bias have its square
+// as the expectation of their product, whatever their noise. A run has the light of many pilots, so
+// that its noise weighs less than that of one, 1 / photons; to 1 % it has the light of hundreds.
+double radius_of_least_error(const std::vector<Arrival>& one, const std::vector<Arrival>& other,
+                             const std::vector<Vec3>& points, double limit_m, double accuracy) {
+    const double weight_of_noise = std::min(1.0 / 8.0, square(accuracy / 0.057));
     std::vector<std::array<LightByRadius, 2>> of_points;
     for (const Vec3& point : points) {
         of_points.push_back(
             {light_around(point, one, limit_m), light_around(point, other, limit_m)});
     }
-    bool wider_passed = false;
+    double best_m = 0.0;
+    double least = infinity;
     double radius_m = limit_m;
     for (std::size_t step = 0; step < radius_steps; ++step, radius_m /= std::numbers::sqrt2) {
-        double photon_count = 0.0;
+        double photons = 0.0;  // in both kernels of a point
         double bias_square = 0.0;
-        double square = 0.0;
+        double light_square = 0.0;
         for (const auto& [a, b] : of_points) {
             bias_square += 4.0 * (a.flux[step] - 2.0 * a.flux[step + 1]) *
                            (b.flux[step] - 2.0 * b.flux[step + 1]);
-            square += a.flux[step] * b.flux[step];
-            photon_count += a.flux[step];
+            light_square += a.flux[step] * b.flux[step];
+            photons += (a.flux[step] + b.flux[step]) / static_cast<double>(points.size());
         }
-        const bool passed = bias_square <= share * share * square;
-        if (passed && wider_passed) return std::numbers::sqrt2 * radius_m;
-        wider_passed = passed;
-        if (photon_count < least_photons * static_cast<double>(points.size())) break;
+        if (!(light_square > 0.0)) break;
+        const double error =
+            weight_of_noise * 2.0 / photons + std::max(0.0, bias_square / light_square);
+        if (error < least) {
+            least = error;
+            best_m = radius_m;
+        }
     }
-    return radius_m;
+    return best_m;
 }
 
 std::vector<std::vector<Arrival>> arrivals_by_patch(const Stage& stage, const SensorPlanes& planes,
@@ -195,10 +199,10 @@ Radii radii_of(const Stage& stage, const SensorPlanes& planes, const PilotPhoton
 Radii Radii::at_phase(std::uint32_t number) const {
     constexpr double alpha = 4.0 / 5.0;
     const double factor = std::pow(static_cast<double>(number) + 1.0, (alpha - 1.0) / 2.0);
-    std::vector<double> shrunk;
-    shrunk.reserve(radii_m_.size());
-    for (const double radius : radii_m_) shrunk.push_back(radius * factor);
-    return Radii(std::move(shrunk));
+    Radii shrunk = *this;
+    for (double& radius : shrunk.radii_m_) radius *= factor;
+    for (double& radius : shrunk.of_points_m_) radius *= factor;
+    return shrunk;
 }
 
 Radii narrow_radii(const Stage& stage, const SensorPlanes& planes, const PilotPhotons& pilot,
@@ -214,22 +218,31 @@ Radii wide_radii(const Stage& stage, const SensorPlanes& planes, const PilotPhot
 
 Radii widened_around(const Stage& stage, const SensorPlanes& planes, const Radii& radii,
                      const PilotPhotons& one, const PilotPhotons& other,
-                     std::span<const SurfacePoint> points) {
+                     std::span<const ReadPoint> points, double accuracy) {
     const auto of_one = arrivals_by_patch(stage, planes, one);
     const auto of_other = arrivals_by_patch(stage, planes, other);
-    std::vector<std::vector<Vec3>> of_patches(of_one.size());
-    for (const SurfacePoint& point : points) {
-        of_patches[kernel_patch(stage, point)].push_back(point.position);
-    }
     std::vector<double> widened;
-    for (std::uint32_t patch = 0; patch < of_patches.size(); ++patch) {
-        widened.push_back(radii[patch]);
-        if (of_patches[patch].empty()) continue;
-        widened.back() = std::max(
-            widened.back(), radius_of_small_bias(of_one[patch], of_other[patch], of_patches[patch],
-                                                 limit_of_patch_m(stage, planes, patch)));
+    for (std::uint32_t patch = 0; patch < of_one.size(); ++patch) widened.push_back(radii[patch]);
+    const auto of_least_error = [&](std::uint32_t patch, const std::vector<Vec3>& positions) {
+        return std::max(radii[patch],
+                        radius_of_least_error(of_one[patch], of_other[patch], positions,
+                                              limit_of_patch_m(stage, planes, patch), accuracy));
+    };
+    std::vector<double> of_points(planes.point_count(), infinity);
+    std::vector<std::vector<Vec3>> on_surfaces(stage.patch_count());
+    for (const ReadPoint& read : points) {
+        const std::uint32_t patch = kernel_patch(stage, read.point);
+        if (patch < stage.patch_count()) {
+            on_surfaces[patch].push_back(read.point.position);
+            continue;
+        }
+        of_points[read.sensor_point] = of_least_error(patch, {read.point.position});
+        widened[patch] = std::max(widened[patch], of_points[read.sensor_point]);
     }
-    return Radii(std::move(widened));
+    for (std::uint32_t patch = 0; patch < stage.patch_count(); ++patch) {
+        if (!on_surfaces[patch].empty()) widened[patch] = of_least_error(patch, on_surfaces[patch]);
+    }
+    return Radii(std::move(widened), std::move(of_points));
 }
 
 std::uint32_t rays_for(const Stage& stage, const PilotPhotons& pilot, const Radii& radii,

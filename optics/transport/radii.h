@@ -10,12 +10,19 @@
 
 namespace lucerna::optics {
 
-/// The radius of each patch's kernels in one phase [m]; the patches of sensor planes come last.
+/// The radius of each patch's kernels in one phase [m]; the patches of sensor planes come last, and
+/// some of their points may have narrower kernels.
 class Radii {
 public:
     Radii() = default;
-    explicit Radii(std::vector<double> first_radii_m) : radii_m_(std::move(first_radii_m)) {}
+    /// @param of_points_m  of all points of sensor planes, or empty.
+    explicit Radii(std::vector<double> first_radii_m, std::vector<double> of_points_m = {})
+        : radii_m_(std::move(first_radii_m)), of_points_m_(std::move(of_points_m)) {}
     double operator[](std::uint32_t patch) const { return radii_m_[patch]; }
+    /// What limits the kernel of a point of a sensor plane, infinity if nothing does.
+    double of_point(std::uint32_t index) const {
+        return index < of_points_m_.size() ? of_points_m_[index] : infinity;
+    }
 
     /// Radii of a phase: r_i^2 = r_1^2 i^(alpha - 1) (Knaus and Zwicker, TOG 30(3), 2011, sec. 5).
     /// The variance of the mean falls with N^-alpha. Their alpha = 2/3 balances it with the square
@@ -25,6 +32,13 @@ public:
 
 private:
     std::vector<double> radii_m_;
+    std::vector<double> of_points_m_;
+};
+
+/// A point that a sensor reads caustics at.
+struct ReadPoint {
+    SurfacePoint point;
+    std::uint32_t sensor_point;  ///< its index if it lies on a plane
 };
 
 /// Photons of a trace with `rays` rays whose results are not used but for what follows.
@@ -53,14 +67,15 @@ Radii narrow_radii(const Stage& stage, const SensorPlanes& planes, const PilotPh
 /// and the bias allow.
 Radii wide_radii(const Stage& stage, const SensorPlanes& planes, const PilotPhotons& pilot);
 
-/// The same with wider kernels around points that are to be read with little bias: as wide as keeps
-/// the bias at the points of a patch, root mean square, below 2 % of the light, so that about the
-/// square of it is left when it is taken off. Two pilots that are independent of each other tell
-/// the square of the bias by a product, whatever the noise of each is.
-/// @param points  of sensor planes and surfaces.
+/// The same with wider kernels around points that are to be read with little error: as wide as
+/// makes the sum of the squares of noise and bias least; on surfaces in the mean over the points of
+/// a patch, on sensor planes at each point by itself. Two pilots that are independent of each other
+/// tell the square of the bias by a product, whatever the noise of each is.
+/// @param accuracy  relative expanded uncertainty that is asked for: the higher it is, the more
+///                  light the run has, and the less its noise weighs.
 Radii widened_around(const Stage& stage, const SensorPlanes& planes, const Radii& radii,
                      const PilotPhotons& one, const PilotPhotons& other,
-                     std::span<const SurfacePoint> points);
+                     std::span<const ReadPoint> points, double accuracy);
 
 /// Number of forward rays of a phase for which kernels of surfaces hold about `photons_per_kernel`
 /// photons, in the mean over the photons of the pilot trace; 0 without photons.

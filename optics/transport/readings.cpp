@@ -253,8 +253,9 @@ double Readings::worst_sensor() const {
         const double t = student_t(target_coverage, degrees);
         for (std::size_t bin = 0; bin < observers_[i].count; ++bin) {
             const Estimate& estimate = luminance_[observers_[i].first_bin + bin];
-            worst = std::max(worst,
-                             excess(targets_[i], estimate.value(), t * estimate.standard_error()));
+            const double expanded =
+                std::hypot(t * estimate.standard_error(), target_coverage * estimate.bias_left());
+            worst = std::max(worst, excess(targets_[i], estimate.value(), expanded));
         }
     }
     return worst;

@@ -42,7 +42,8 @@ SensorPlanes::SensorPlanes(const SceneParts& parts, const RayCaster& caster, dou
             if (plane == planes_.size()) planes_.push_back({points->normal, offset_m, {}});
             planes_[plane].bounds.extend(position);
             points_[i].push_back({position, static_cast<std::uint32_t>(plane),
-                                  clearance_m(caster, position, points->normal, margin_m)});
+                                  clearance_m(caster, position, points->normal, margin_m),
+                                  point_count_++});
         }
     }
 }

@@ -41,10 +41,12 @@ public:
         /// Distance to the nearest surface along the plane, at most the margin [m]: a kernel must
         /// not reach beyond, where no light arrives.
         double clearance_m;
+        std::uint32_t index;  ///< among the points of all planes
     };
     const Point& point(std::size_t observer, std::size_t number) const {
         return points_[observer][number];
     }
+    std::uint32_t point_count() const { return point_count_; }
     /// All points of a plane.
     std::vector<Point> points_of(std::uint32_t plane) const;
 
@@ -56,6 +58,7 @@ private:
     };
     double margin_m_;
     std::vector<Plane> planes_;
+    std::uint32_t point_count_ = 0;
     std::vector<std::vector<Point>> points_;  // [observer][point]
 };
 

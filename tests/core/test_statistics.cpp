@@ -130,13 +130,38 @@ TEST_CASE("The measured bias is taken off, and its noise counts", "[unit]") {
     estimate.add(11.0, 2.0);
     CHECK_THAT(estimate.value(), WithinRel(9.0, 1e-14));
     CHECK_THAT(estimate.standard_error(), WithinRel(std::sqrt(2.0 / 6.0), 1e-13));
+    // Of the bias 1 +/- sqrt(1 / 3) half may be left: (1 - 1 / 3) / 4 = 1 / 6, as a square.
+    CHECK_THAT(estimate.bias_left(), WithinRel(std::sqrt(1.0 / 6.0), 1e-13));
     CHECK_THAT(estimate.expanded_uncertainty(),
-               WithinRel(student_t(0.95, 2.0) * std::sqrt(2.0 / 6.0), 1e-9));
+               WithinRel(std::hypot(student_t(0.95, 2.0) * std::sqrt(2.0 / 6.0),
+                                    0.95 * std::sqrt(1.0 / 6.0)),
+                         1e-9));
     CHECK_THAT(estimate.mean(), WithinRel(10.0, 1e-14));
     CHECK_THAT(estimate.mean_standard_error(), WithinRel(std::sqrt(2.0 / 6.0), 1e-13));
     // Half of it: v - b / 2 = 8.5, 10, 10; mean 9.5, squares 1 + 0.25 + 0.25
     CHECK_THAT(estimate.value(0.5), WithinRel(9.5, 1e-14));
     CHECK_THAT(estimate.standard_error(0.5), WithinRel(std::sqrt(1.5 / 6.0), 1e-13));
+}
+
+TEST_CASE("What is left of a bias beside an edge lies within the interval", "[unit]") {
+    // An edge that the wide kernel reaches, but not the one of radius r / sqrt 2: the value is off
+    // by b, two radii tell 2 b, and the corrected value is off by -b, whatever the number of
+    // phases.
+    constexpr double truth = 10.0, off = 0.3;
+    Estimate beside_edge;
+    for (int i = 0; i < 1000; ++i) {
+        const double noise = 0.01 * (i % 5 - 2);
+        beside_edge.add(truth + off + noise, 2.0 * off);
+    }
+    CHECK_THAT(beside_edge.value(), WithinRel(truth - off, 1e-12));
+    CHECK(beside_edge.bias_left() >= off * (1.0 - 1e-12));
+    CHECK(beside_edge.expanded_uncertainty() > 0.94 * off);
+    // Twin: noise alone claims far less.
+    CHECK(student_t(0.95, 999.0) * beside_edge.standard_error() < 0.01 * off);
+    // Noise of the bias alone is no bias.
+    Estimate noisy;
+    for (int i = 0; i < 100; ++i) noisy.add(truth, i % 2 ? 1.0 : -1.0);
+    CHECK(noisy.bias_left() == 0.0);
 }
 
 TEST_CASE("The least of several candidates has a wider interval", "[unit]") {

@@ -149,6 +149,38 @@ TEST_CASE("Materials and objects that do not fit are refused", "[unit]") {
            "{name: bulb, type: area, side: back, on: @plate,", "'plate' emits already by line");
 }
 
+TEST_CASE("Skies that make no sense are refused", "[unit]") {
+    const std::string bulb =
+        "{name: bulb, type: point, position: [1 m, 0.5 m, 2 m], flux: 100 lm, spectrum: D65}";
+    const auto refuse_sky = [&](const std::string& light, const std::string& part) {
+        refuse(bulb, light, part);
+    };
+    refuse_sky(
+        "{name: bulb, type: sky, on: gate, side: back, sky: @16, zenith: 1 kcd/m2, ground: 0, "
+        "spectrum: E}",
+        "'16' is not a whole number from 1 to 15");
+    refuse_sky(
+        "@{name: bulb, type: sky, on: gate, side: back, sky: 12, zenith: 1 kcd/m2, ground: 0, "
+        "spectrum: E}",
+        "the key 'sun' is missing");
+    refuse_sky(
+        "{name: bulb, type: sky, on: gate, side: back, sky: 1, sun: @z, zenith: 1 kcd/m2, ground: "
+        "0, spectrum: E}",
+        "expected no 'sun'");
+    refuse_sky(
+        "{name: bulb, type: sky, on: gate, side: back, sky: 12, sun: @[0, 1, -1], zenith: 1 "
+        "kcd/m2, "
+        "ground: 0, spectrum: E}",
+        "not above the horizon");
+    refuse_sky(
+        "{name: bulb, type: sky, on: @ball, side: back, sky: 5, zenith: 1 kcd/m2, ground: 0, "
+        "spectrum: E}",
+        "'ball' is no rectangle and no disk");
+    refuse_sky(
+        "@{name: bulb, type: sky, on: gate, side: back, sky: 5, zenith: 1 kcd/m2, spectrum: E}",
+        "the key 'ground' is missing");
+}
+
 TEST_CASE("Spectra that make no sense are refused", "[unit]") {
     refuse("spectrum: A", "spectrum: @LED-B33", "did you mean 'LED-B3'?");
     refuse("spectrum: A", "spectrum: {planck: @2856}", "has no unit; expected a temperature");

@@ -178,6 +178,20 @@ TEST_CASE("Lights have the flux that was stated", "[analytic]") {
     CHECK(std::get<AreaLight>(both.source).both_sides);
     const Light back = with_light("type: area, on: gate, side: back, flux: 5 lm, spectrum: E");
     CHECK(std::get<AreaLight>(back.source).inward);
+    // A wall opening under a uniform sky and a white ground: M = 1000 lx, seen from one side.
+    const Light sky = with_light(
+        "type: sky, on: gate, side: back, sky: 5, illuminance: 1000 lx, ground: 100 %, spectrum: "
+        "D65");
+    CHECK_THAT(sky.luminous_flux_lm, WithinRel(1000.0 * 0.5, 1e-5));
+    CHECK(std::get<AreaLight>(sky.source).inward);
+    CHECK_THAT(
+        with_light("type: sky, on: gate, side: back, sky: overcast, zenith: 9 cd/m2, ground: "
+                   "0, spectrum: E")
+                .luminous_flux_lm /
+            with_light("type: sky, on: gate, side: back, sky: overcast, illuminance: 22 lx, "
+                       "ground: 0, spectrum: E")
+                .luminous_flux_lm,
+        WithinRel(7.0 * pi / 22.0, 1e-12));  // E = 7 pi / 9 Lz
     const Light beam = with_light(
         "type: beam, cross_section: {type: rectangle, corner: [0 m, 0 m, 5 m], edge_u: [0 m, 0.5 "
         "m, 0 "

@@ -23,6 +23,12 @@ TEST_CASE("validate complains about unknown cases with the nearest name", "[vali
     CHECK(outcome.out.empty());
 }
 
+TEST_CASE("Daylight of a sky that is not uniform agrees with its truth", "[validation]") {
+    CHECK(run_program({"validate", "cie171/5.11-type-8", "cie171/5.9-type-12", "--threads", "1",
+                       "--phases", "96"})
+              .exit_code == 0);
+}
+
 TEST_CASE("validate runs a case and writes table, data and page", "[validation]") {
     const io::TestFolder folder;
     const std::string results = folder / "results";

@@ -7,6 +7,7 @@
 #include "validation/cases.h"
 #include "validation/cases/panel_room.h"
 #include "validation/truth/polygon_light.h"
+#include "validation/truth/sky_light.h"
 
 namespace lucerna::validation {
 namespace {
@@ -118,8 +119,8 @@ constexpr double sky = 1000.0 / pi;  // cd/m2: 1000 lx on an open level plane
 const std::array<std::string, 6> wall_names{"wall -x", "wall +x", "wall -y",
                                             "wall +y", "floor",   "ceiling"};
 
-// The room with a hole in one wall and the sky behind; returns the hole.
-Rectangle opened_room(SceneBuilder& scene, std::size_t wall, const Hole& hole, bool receivers) {
+// The room with a hole in one wall; returns the hole.
+Rectangle room_with_hole(SceneBuilder& scene, std::size_t wall, const Hole& hole, bool receivers) {
     const auto walls = black_walls();
     const Opened parts = opened(walls[wall], hole);
     const BsdfId black = scene.black();
@@ -131,7 +132,12 @@ Rectangle opened_room(SceneBuilder& scene, std::size_t wall, const Hole& hole, b
         const ObjectId own = scene.object(wall_names[i], rectangle(walls[i]), black);
         if (receivers) scene.receiver(own);
     }
-    const Rectangle opening = rectangle(parts.hole);
+    return rectangle(parts.hole);
+}
+
+// The same with a uniform sky behind.
+Rectangle opened_room(SceneBuilder& scene, std::size_t wall, const Hole& hole, bool receivers) {
+    const Rectangle opening = room_with_hole(scene, wall, hole, receivers);
     add_sky(scene, opening, sky);
     return opening;
 }
@@ -298,6 +304,87 @@ Case sky_component(const std::string& id, const std::string& title, std::size_t 
             points.checks};
 }
 
+// A sky of the engine, and the same by its parameters.
+template <typename TruthSky>
+struct SkyPair {
+    Sky engine;
+    TruthSky truth;
+};
+
+// 5.9 and 5.11 with skies that are not uniform, and a ground.
+template <typename TruthSky>
+Case general_sky(const std::string& id, const std::string& title, std::size_t wall,
+                 const Hole& hole, const std::vector<WallPoint>& places,
+                 const SkyPair<TruthSky>& skies) {
+    constexpr double horizontal_lx = 10000.0, ground = 0.2;
+    SceneBuilder scene;
+    const Rectangle opening = room_with_hole(scene, wall, hole, false);
+    const Vec3 normal = opening.edge_u.cross(opening.edge_v).normalized();
+    const bool back = (Vec3(2.0, 2.0, 1.5) - opening.corner).dot(normal) < 0.0;
+    const auto view =
+        std::make_shared<const SkyView>(skies.engine, back ? Vec3(-normal) : normal, ground);
+    scene.light(
+        "sky",
+        AreaLight{scene.object("opening", opening, pass_through), opening, false, back, view},
+        horizontal_lx / skies.engine.horizontal_sr() * view->exitance_sr() * area_m2(opening));
+    // The truth wants an upright edge second.
+    const bool swapped = opening.edge_u.z() != 0.0;
+    const Vec3 u = swapped ? opening.edge_v : opening.edge_u;
+    const Vec3 v = swapped ? opening.edge_u : opening.edge_v;
+    Points points{scene};
+    for (const WallPoint& place : places) {
+        points.add(place.name, place.position, place.normal,
+                   truth::sky_illuminance(skies.truth, horizontal_lx, ground, opening.corner, u, v,
+                                          place.position, place.normal));
+        points.checks.back().truth_error = 1e-4 * points.checks.back().truth;
+    }
+    return {id,
+            title,
+            "E = int L cos cos' / r^2 dA over the opening by Gauss-Legendre quadrature, L of ISO "
+            "15469 scaled by its integral over the sky",
+            scene.parts,
+            effort(256, 100),
+            points.checks};
+}
+
+std::vector<Case> general_sky_cases() {
+    const Vec3 up = Vec3::UnitZ();
+    const Vec3 sun = Vec3(0.3, -0.8, 0.9).normalized();
+    const auto general = [&](int type, double a, double b, double c, double d, double e) {
+        return SkyPair<truth::StandardSky>{Sky::general(type, up, sun), {a, b, c, d, e, sun}};
+    };
+    const SkyPair<truth::OvercastSky> overcast{Sky::overcast(up), {}};
+    const Hole roof{1.5, 2.5, 1.5, 2.5};
+    const Hole window{1.0, 2.0, 1.0, 3.0};
+    std::vector<WallPoint> roof_places;
+    for (const double x : {0.25, 1.0, 1.75}) {
+        roof_places.push_back(
+            {fmt::format("floor, x = {:g} m", x), {x, 2.5, lift_m}, Vec3::UnitZ()});
+    }
+    roof_places.push_back({"wall -y", {2.0, lift_m, 1.0}, Vec3::UnitY()});
+    roof_places.push_back({"wall +y", {2.0, 4.0 - lift_m, 1.0}, -Vec3::UnitY()});
+    std::vector<WallPoint> window_places;
+    for (const double y : {0.5, 1.5, 3.0}) {
+        window_places.push_back(
+            {fmt::format("floor, y = {:g} m", y), {2.0, y, lift_m}, Vec3::UnitZ()});
+    }
+    // The back wall sees sky and ground, the ceiling the ground alone.
+    window_places.push_back({"back wall", {1.0, 4.0 - lift_m, 1.4}, -Vec3::UnitY()});
+    window_places.push_back({"ceiling", {2.0, 1.0, 3.0 - lift_m}, -Vec3::UnitZ()});
+    const std::string of_roof = "after 5.9: roof opening of 1 x 1 m, ";
+    const std::string of_window = "after 5.11: window of 2 x 1 m over a ground of 20 %, ";
+    return {general_sky("cie171/5.9-overcast", of_roof + "overcast sky", 5, roof, roof_places,
+                        overcast),
+            general_sky("cie171/5.9-type-12", of_roof + "clear sky, type 12", 5, roof, roof_places,
+                        general(12, -1.0, -0.32, 10.0, -3.0, 0.45)),
+            general_sky("cie171/5.11-type-1", of_window + "overcast sky, type 1", 2, window,
+                        window_places, general(1, 4.0, -0.70, 0.0, -1.0, 0.0)),
+            general_sky("cie171/5.11-type-8", of_window + "partly cloudy sky, type 8", 2, window,
+                        window_places, general(8, 0.0, -1.0, 10.0, -3.0, 0.45)),
+            general_sky("cie171/5.11-type-14", of_window + "cloudless sky, type 14", 2, window,
+                        window_places, general(14, -1.0, -0.15, 16.0, -3.0, 0.30))};
+}
+
 std::vector<WallPoint> below_roof() {
     std::vector<WallPoint> places;
     for (const double x : {0.25, 0.75, 1.25, 1.75}) {
@@ -320,7 +407,7 @@ std::vector<WallPoint> before_facade() {
 }  // namespace
 
 std::vector<Case> cie171_cases() {
-    return {
+    std::vector<Case> cases{
         point_source(3.0),
         point_source(1.5),
         area_source(1.0),
@@ -345,6 +432,8 @@ std::vector<Case> cie171_cases() {
         sky_component("cie171/5.11-3x2", "after 5.11: window of 3 x 2 m, 0.5 m above the floor", 2,
                       {0.5, 2.5, 0.5, 3.5}, before_facade(), true),
     };
+    for (Case& each : general_sky_cases()) cases.push_back(std::move(each));
+    return cases;
 }
 
 }  // namespace lucerna::validation

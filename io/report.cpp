@@ -70,6 +70,7 @@ Json quantity_json(const optics::Quantity& quantity, Numbers& number) {
     json["bias"] = number(estimate.bias(), quantity.name + " bias");
     json["bias_standard_error"] =
         number(estimate.bias_standard_error(), quantity.name + " bias_standard_error");
+    json["bias_left"] = estimate.bias_left();
     json["uncorrected"] = {
         {"value", estimate.mean()},
         {"standard_error",

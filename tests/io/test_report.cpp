@@ -54,6 +54,7 @@ TEST_CASE("The bias is taken off the reported value and stated beside it", "[uni
     CHECK_THAT(quantity["value"].get<double>(), WithinRel(510.0, 1e-12));
     CHECK_THAT(quantity["bias"].get<double>(), WithinRel(2.0, 1e-12));
     CHECK_THAT(quantity["uncorrected"]["value"].get<double>(), WithinRel(512.0, 1e-12));
+    CHECK(quantity["bias_left"].get<double>() >= 0.0);
 }
 
 TEST_CASE("The flux balance of the report closes", "[unit][report]") {

@@ -17,7 +17,7 @@ namespace lucerna::cli {
 
 ExitCode validate(const ValidateOptions& options) {
     const std::vector<validation::Case> cases =
-        validation::selected(validation::all_cases(), options.cases);
+        validation::selected(validation::cases_for(options.cases), options.cases);
     if (options.list) {
         fmt::print("{}", validation::list_text(cases));
         return done;

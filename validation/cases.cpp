@@ -1,7 +1,6 @@
 #include "validation/cases.h"
 
 #include <array>
-#include <iterator>
 
 namespace lucerna::validation {
 namespace {
@@ -32,15 +31,6 @@ constexpr std::array list{
 
 std::span<const Family> families() {
     return list;
-}
-
-std::vector<Case> all_cases() {
-    std::vector<Case> all;
-    for (const Family& family : list) {
-        std::vector<Case> own = family.cases();
-        std::move(own.begin(), own.end(), std::back_inserter(all));
-    }
-    return all;
 }
 
 }  // namespace lucerna::validation

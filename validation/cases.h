@@ -36,7 +36,4 @@ struct Family {
 
 std::span<const Family> families();
 
-/// All cases of all families, in the order of the list.
-std::vector<Case> all_cases();
-
 }  // namespace lucerna::validation

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "core/diagnostics.h"
+#include "validation/cases.h"
 
 namespace lucerna::validation {
 namespace {
@@ -31,6 +33,27 @@ bool matches_beginning(std::string_view pattern, std::string_view text) {
 bool means(const std::string& pattern, const std::string& id) {
     if (pattern == id || pattern == family_of(id)) return true;
     return pattern.find_first_of("*?") != std::string::npos && matches_beginning(pattern, id);
+}
+
+std::vector<Case> cases_for(const std::vector<std::string>& patterns) {
+    const auto is_family = [](const std::string& name) {
+        return std::any_of(families().begin(), families().end(),
+                           [&](const Family& family) { return family.name == name; });
+    };
+    const bool some = !patterns.empty() &&
+                      std::all_of(patterns.begin(), patterns.end(), [&](const auto& pattern) {
+                          return is_family(family_of(pattern));
+                      });
+    std::vector<Case> cases;
+    for (const Family& family : families()) {
+        const bool wanted = std::any_of(
+            patterns.begin(), patterns.end(),
+            [&](const std::string& pattern) { return family_of(pattern) == family.name; });
+        if (some && !wanted) continue;
+        std::vector<Case> own = family.cases();
+        std::move(own.begin(), own.end(), std::back_inserter(cases));
+    }
+    return cases;
 }
 
 std::vector<Case> selected(std::vector<Case> cases, const std::vector<std::string>& patterns) {

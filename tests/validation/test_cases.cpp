@@ -42,6 +42,21 @@ TEST_CASE("The families that are promised are in the list", "[validation]") {
     }
 }
 
+TEST_CASE("Only truths of families that may be meant are worked out", "[validation]") {
+    const auto families_of = [](const std::vector<std::string>& patterns) {
+        std::set<std::string> names;
+        for (const Case& own : cases_for(patterns)) {
+            names.insert(own.id.substr(0, own.id.find('/')));
+        }
+        return names;
+    };
+    CHECK(families_of({"mirrors/two-point", "beer_lambert"}) ==
+          std::set<std::string>{"mirrors", "beer_lambert"});
+    CHECK(families_of({"mirrors/no-such-case"}) == std::set<std::string>{"mirrors"});
+    CHECK(families_of({}).size() == families().size());
+    CHECK(families_of({"mirrors", "mir*"}).size() == families().size());
+}
+
 TEST_CASE("Cases are chosen by id, family and pattern", "[validation]") {
     CHECK(means("slab", "slab/60-deg"));
     CHECK(means("slab/60-deg", "slab/60-deg"));

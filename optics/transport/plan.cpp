@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint32_t min_pilot_rays = 1 << 14, max_pilot_rays = 1 << 15;
 // That tell how wide the kernels of sensors may be.
-constexpr std::uint32_t rays_to_widen = 1 << 16;
+constexpr std::uint32_t rays_to_widen = 1 << 18;
 constexpr double default_sensor_accuracy = 0.02;  // where none is asked for
 // What the choice of the collection for images is made from.
 constexpr std::uint32_t pilot_phases = 3;

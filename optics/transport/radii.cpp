@@ -116,8 +116,10 @@ double radius_of_small_bias(const std::vector<Arrival>& photons, const std::vect
 }
 
 // The radius of least error at the points. Two independent measurements of the bias have its square
-// as the expectation of their product, whatever their noise. A run has the light of many pilots, so
-// that its noise weighs less than that of one, 1 / photons; to 1 % it has the light of hundreds.
+// as the expectation of their product, whatever their noise. Narrow kernels tell little of it; but
+// it falls with the radius at least as fast as beside a kink, in proportion, so that what a wide
+// kernel shows bounds the narrower ones. A run has the light of many pilots, so that its noise
+// weighs less than that of one, 1 / photons; to 1 % it has the light of hundreds.
 double radius_of_least_error(const std::vector<Arrival>& one, const std::vector<Arrival>& other,
                              const std::vector<Vec3>& points, double limit_m, double accuracy) {
     const double weight_of_noise = std::min(1.0 / 8.0, square(accuracy / 0.057));
@@ -126,22 +128,34 @@ double radius_of_least_error(const std::vector<Arrival>& one, const std::vector<
         of_points.push_back(
             {light_around(point, one, limit_m), light_around(point, other, limit_m)});
     }
-    double best_m = 0.0;
-    double least = infinity;
-    double radius_m = limit_m;
-    for (std::size_t step = 0; step < radius_steps; ++step, radius_m /= std::numbers::sqrt2) {
-        double photons = 0.0;  // in both kernels of a point
-        double bias_square = 0.0;
+    struct Step {
+        double photons = 0.0;      // in both kernels of a point
+        double bias_square = 0.0;  // relative to the light
+    };
+    std::vector<Step> steps;
+    for (std::size_t i = 0; i < radius_steps; ++i) {
+        Step step;
         double light_square = 0.0;
         for (const auto& [a, b] : of_points) {
-            bias_square += 4.0 * (a.flux[step] - 2.0 * a.flux[step + 1]) *
-                           (b.flux[step] - 2.0 * b.flux[step + 1]);
-            light_square += a.flux[step] * b.flux[step];
-            photons += (a.flux[step] + b.flux[step]) / static_cast<double>(points.size());
+            step.bias_square +=
+                4.0 * (a.flux[i] - 2.0 * a.flux[i + 1]) * (b.flux[i] - 2.0 * b.flux[i + 1]);
+            light_square += a.flux[i] * b.flux[i];
+            step.photons += (a.flux[i] + b.flux[i]) / static_cast<double>(points.size());
         }
         if (!(light_square > 0.0)) break;
-        const double error =
-            weight_of_noise * 2.0 / photons + std::max(0.0, bias_square / light_square);
+        step.bias_square /= light_square;
+        steps.push_back(step);
+    }
+    double best_m = 0.0;
+    double least = infinity;
+    double bound = infinity;  // of the square of the bias
+    double radius_m = limit_m;
+    for (std::size_t i = 0; i < steps.size(); ++i, radius_m /= std::numbers::sqrt2) {
+        // Half a standard deviation of the product, if photons are random, is taken for luck: it is
+        // far above what noise adds to the error, and would else narrow kernels without a reason.
+        const double of_luck = 4.0 / steps[i].photons;
+        bound = std::min(0.5 * bound, std::max(0.0, steps[i].bias_square - of_luck));
+        const double error = weight_of_noise * 2.0 / steps[i].photons + bound;
         if (error < least) {
             least = error;
             best_m = radius_m;
@@ -223,11 +237,18 @@ Radii widened_around(const Stage& stage, const SensorPlanes& planes, const Radii
     const auto of_other = arrivals_by_patch(stage, planes, other);
     std::vector<double> widened;
     for (std::uint32_t patch = 0; patch < of_one.size(); ++patch) widened.push_back(radii[patch]);
-    const auto of_least_error = [&](std::uint32_t patch, const std::vector<Vec3>& positions) {
-        return std::max(radii[patch],
-                        radius_of_least_error(of_one[patch], of_other[patch], positions,
-                                              limit_of_patch_m(stage, planes, patch), accuracy));
+    const auto of_least_error = [&](std::uint32_t patch, const std::vector<Vec3>& positions,
+                                    double limit_m) {
+        return std::max(radii[patch], radius_of_least_error(of_one[patch], of_other[patch],
+                                                            positions, limit_m, accuracy));
     };
+    // No kernel reaches the wall beside its point, so that the search starts there.
+    std::vector<double> clearances_m(planes.point_count());
+    for (std::uint32_t plane = 0; plane < planes.count(); ++plane) {
+        for (const auto& point : planes.points_of(plane)) {
+            clearances_m[point.index] = point.clearance_m;
+        }
+    }
     std::vector<double> of_points(planes.point_count(), infinity);
     std::vector<std::vector<Vec3>> on_surfaces(stage.patch_count());
     for (const ReadPoint& read : points) {
@@ -236,11 +257,14 @@ Radii widened_around(const Stage& stage, const SensorPlanes& planes, const Radii
             on_surfaces[patch].push_back(read.point.position);
             continue;
         }
-        of_points[read.sensor_point] = of_least_error(patch, {read.point.position});
+        of_points[read.sensor_point] =
+            of_least_error(patch, {read.point.position}, clearances_m[read.sensor_point]);
         widened[patch] = std::max(widened[patch], of_points[read.sensor_point]);
     }
     for (std::uint32_t patch = 0; patch < stage.patch_count(); ++patch) {
-        if (!on_surfaces[patch].empty()) widened[patch] = of_least_error(patch, on_surfaces[patch]);
+        if (!on_surfaces[patch].empty())
+            widened[patch] =
+                of_least_error(patch, on_surfaces[patch], limit_of_patch_m(stage, planes, patch));
     }
     return Radii(std::move(widened), std::move(of_points));
 }

@@ -1,0 +1,67 @@
+// How wide the kernels are that sensors read caustics with.
+#include "optics/transport/radii.h"
+#include "tests/support/truth_checks.h"
+
+using namespace lucerna;
+using namespace lucerna::optics;
+using test::SceneBuilder;
+
+namespace {
+
+constexpr double margin_m = 1.0;
+
+/// An illuminance point at the origin, nothing near it.
+struct OnePoint {
+    SceneBuilder scene = [] {
+        SceneBuilder builder;
+        builder.object("floor", Rectangle{{-1, -1, -9}, {2, 0, 0}, {0, 2, 0}}, builder.black());
+        builder.light("light", PointLight{{0, 0, 3}}, 1.0);
+        builder.points({Vec3::Zero()}, Vec3::UnitZ());
+        return builder;
+    }();
+    Stage stage{scene.parts};
+    SensorPlanes planes{stage.parts(), stage.caster(), margin_m};
+
+    /// Photons at random in a square around the point, as dense as `photons` in the unit disk;
+    /// those farther than the edge are missing.
+    PilotPhotons pilot(std::uint32_t number, double photons, double edge_m) const {
+        PilotPhotons result{{}, 1000};
+        const auto count = static_cast<std::uint32_t>(photons * 4.0 / pi);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            RandomStream random(1, number, RandomPurpose::test, i);
+            const double x = 2.0 * random.uniform() - 1.0;
+            const Vec3 at(x, 2.0 * random.uniform() - 1.0, 0.0);
+            if (at.norm() > edge_m) continue;
+            result.photons.push_back({{at, Vec3::UnitZ(), no_object, 0, 0},
+                                      -Vec3::UnitZ(),
+                                      Lanes::Ones(),
+                                      History::caustic});
+        }
+        return result;
+    }
+
+    double radius_m(double edge_m, double photons = 20000.0) const {
+        const Radii narrow(std::vector<double>(stage.patch_count() + 1, 1e-3));
+        const SurfacePoint point{Vec3::Zero(), Vec3::UnitZ(), no_object, 0, 0};
+        const std::vector<ReadPoint> points{{point, 0}};
+        return widened_around(stage, planes, narrow, pilot(1, photons, edge_m),
+                              pilot(2, photons, edge_m), points, 0.02)
+            .of_point(0);
+    }
+};
+
+}  // namespace
+
+TEST_CASE("A kernel of a sensor is as wide as light is even around it") {
+    const OnePoint room;
+    CHECK(room.radius_m(infinity) > 0.99 * margin_m);
+    // An edge at a distance d: the widest of the radii 1, 1 / sqrt 2, 1 / 2, ... that does not
+    // reach it, or the next one.
+    for (const double edge_m : {0.6, 0.4, 0.15}) {
+        INFO("edge at " << edge_m << " m, radius " << room.radius_m(edge_m) << " m");
+        CHECK(room.radius_m(edge_m) <= edge_m);
+        CHECK(room.radius_m(edge_m) > 0.5 * edge_m);
+    }
+    // Few photons tell no bias of a kernel; without any the radius stays as it was.
+    CHECK(room.radius_m(infinity, 0.0) == 1e-3);
+}

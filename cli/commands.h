@@ -31,11 +31,20 @@ struct RunOptions {
     std::optional<optics::Method> method;
     std::optional<optics::Scheduler> scheduler;
     std::optional<int> spectral_bins;
+    bool resume = false;  ///< go on from the state in the folder
 };
 
-/// Simulates a scene and writes images, previews and report. Interrupted by SIGINT, it finishes the
-/// phase and writes.
+/// Simulates a scene and writes images, previews, report and state; the state also now and then in
+/// between. Interrupted by SIGINT or SIGTERM, it finishes the phase and writes.
 ExitCode run(const RunOptions& options);
+
+struct MergeOptions {
+    std::vector<std::filesystem::path> results;  ///< folders of results with a state
+    std::filesystem::path output;
+    std::optional<std::filesystem::path> scene;  ///< default: where the runs found it
+};
+/// Joins runs of one scene with different seeds into one result.
+ExitCode merge(const MergeOptions& options);
 
 /// Reads a scene with all checks of a run and says what it holds.
 ExitCode check(const std::filesystem::path& scene);

@@ -39,10 +39,12 @@ struct CommandLine {
     cli::RunOptions run;
     std::filesystem::path scene_to_check, photometric_file;
     cli::CompareOptions compare;
+    cli::MergeOptions merge;
     cli::BenchOptions bench;
     CLI::App* run_command;
     CLI::App* check_command;
     CLI::App* compare_command;
+    CLI::App* merge_command;
     CLI::App* photometry_command;
     CLI::App* bench_command;
     CLI::App* validate_command;
@@ -71,18 +73,39 @@ struct CommandLine {
             ->check(CLI::PositiveNumber);
         run_command->add_option("--threads", run.threads, "Threads to use [all of the machine]")
             ->check(CLI::PositiveNumber);
-        run_command->add_option("--seed", run.seed, "Seed of the random numbers")
-            ->check(CLI::NonNegativeNumber);
-        run_command->add_option("--method", run.method, "Estimators to use")
-            ->transform(CLI::CheckedTransformer(io::methods()));
+        CLI::Option* seed =
+            run_command->add_option("--seed", run.seed, "Seed of the random numbers")
+                ->check(CLI::NonNegativeNumber);
+        CLI::Option* method = run_command->add_option("--method", run.method, "Estimators to use")
+                                  ->transform(CLI::CheckedTransformer(io::methods()));
+        CLI::Option* scheduler =
+            run_command
+                ->add_option(
+                    "--scheduler", run.scheduler,
+                    "How threads share the work; synchronous and two-level do not give the "
+                    "same bits twice [ordered]")
+                ->transform(CLI::CheckedTransformer(io::schedulers()));
+        CLI::Option* spectral = run_command
+                                    ->add_option("--spectral", run.spectral_bins,
+                                                 "Bins of the spectral image [0: none]")
+                                    ->check(CLI::Range(0, 470));  // 1 nm over 360 to 830 nm
         run_command
-            ->add_option("--scheduler", run.scheduler,
-                         "How threads share the work; synchronous and two-level do not give the "
-                         "same bits twice [ordered]")
-            ->transform(CLI::CheckedTransformer(io::schedulers()));
-        run_command
-            ->add_option("--spectral", run.spectral_bins, "Bins of the spectral image [0: none]")
-            ->check(CLI::Range(0, 470));  // 1 nm over 360 to 830 nm
+            ->add_flag("--resume", run.resume,
+                       "Go on with the run whose results are in the folder; --time counts from "
+                       "now, --phases from its start")
+            ->excludes(seed)
+            ->excludes(method)
+            ->excludes(scheduler)
+            ->excludes(spectral);
+
+        merge_command =
+            app.add_subcommand("merge", "Join runs of a scene that have different seeds");
+        merge_command->add_option("RESULTS", merge.results, "Folders of results, two at least")
+            ->required()
+            ->expected(2, -1);
+        merge_command->add_option("-o,--output", merge.output, "Folder of the joined results")
+            ->required();
+        merge_command->add_option("--scene", merge.scene, "Scene file [where the runs found it]");
 
         check_command = app.add_subcommand("check", "Read a scene and say what it holds");
         check_command->add_option("SCENE", scene_to_check, "Scene file (YAML)")->required();
@@ -174,6 +197,7 @@ struct CommandLine {
         if (*run_command) return cli::run(run);
         if (*check_command) return cli::check(scene_to_check);
         if (*compare_command) return cli::compare(compare);
+        if (*merge_command) return cli::merge(merge);
         if (*bench_command) return cli::bench(bench);
         if (*validate_command) return cli::validate(validate);
         if (*photometry_command) return cli::photometry(photometric_file);

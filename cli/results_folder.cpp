@@ -61,7 +61,7 @@ ResultsFolder::ResultsFolder(std::filesystem::path path) : path_(std::move(path)
 std::vector<io::WrittenFile> ResultsFolder::write(const optics::Result& result,
                                                   const io::ReportSource& source) const {
     std::vector<io::WrittenFile> files;
-    const io::Provenance provenance{result.phases, result.settings.seed, source.scene_hash};
+    const io::Provenance provenance{result.phases, result.seeds, source.scene_hash};
     const std::vector<std::string> names = file_names(result.images);
     for (std::size_t i = 0; i < names.size(); ++i) {
         const optics::Image& image = result.images[i];

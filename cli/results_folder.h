@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "io/report.h"
+#include "io/state_file.h"
 #include "io/summary.h"
 #include "optics/transport/result.h"
 
@@ -26,6 +27,9 @@ public:
     /// Makes the folder, so that a run does not find out at its end. Throws InputError if it cannot
     /// be written to.
     explicit ResultsFolder(std::filesystem::path path);
+
+    const std::filesystem::path& path() const { return path_; }
+    std::filesystem::path state_file() const { return path_ / io::state_file_name; }
 
     /// report.json, and of each image NAME.exr, NAME.png, NAME.false_colour.png, and
     /// NAME.spectral.exr if it has spectra.

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <atomic>
 #include <csignal>
@@ -8,6 +7,7 @@
 #include "cli/progress_line.h"
 #include "cli/results_folder.h"
 #include "core/diagnostics.h"
+#include "core/stopwatch.h"
 #include "io/content_hash.h"
 #include "io/scene_file.h"
 #include "io/summary.h"
@@ -22,6 +22,7 @@ static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may set 
 extern "C" void interrupt(int) {
     interrupted = true;
     std::signal(SIGINT, SIG_DFL);  // a second one ends the program at once
+    std::signal(SIGTERM, SIG_DFL);
 }
 
 optics::Settings merged(optics::Settings settings, const RunOptions& options) {
@@ -36,25 +37,78 @@ optics::Settings merged(optics::Settings settings, const RunOptions& options) {
     return settings;
 }
 
+// Saves the state now and then, so that hardly any work is lost with the machine: at most every
+// minute, and so seldom that it takes 2 % of the time.
+class Checkpoints {
+public:
+    Checkpoints(std::filesystem::path file, io::ReportSource source)
+        : file_(std::move(file)), source_(std::move(source)) {}
+
+    void phase_done(const optics::RunState& state) {
+        if (since_last_.seconds() < std::max(60.0, 50.0 * last_took_s_)) return;
+        save(state);
+    }
+
+    void save(const optics::RunState& state) {
+        const Stopwatch watch;
+        io::write_state(file_, state, source_);
+        last_took_s_ = watch.seconds();
+        since_last_ = {};
+    }
+
+private:
+    std::filesystem::path file_;
+    io::ReportSource source_;
+    Stopwatch since_last_;
+    double last_took_s_ = 0.0;
+};
+
+optics::RunState saved_state(const std::filesystem::path& path, const io::SceneFile& scene,
+                             const std::string& scene_hash) {
+    const io::StateFile file(path);
+    if (file.source().scene_hash != scene_hash) {
+        throw InputError({path.string()},
+                         "is of another scene: the scene file or one that it refers to was changed "
+                         "since; change limits with --accuracy, --time and --phases instead");
+    }
+    optics::RunState state = file.state(scene.parts);
+    if (state.seeds.size() > 1) {
+        throw InputError({path.string()},
+                         "joins several runs; go on with one of them and merge again");
+    }
+    return state;
+}
+
 }  // namespace
 
 ExitCode run(const RunOptions& options) {
     const io::SceneFile scene = io::read_scene_file(options.scene);
     const ResultsFolder folder(options.output.value_or(default_results_folder(options.scene)));
     const std::string scene_hash = io::content_hash(scene.files);
+    const optics::Settings settings = merged(scene.settings, options);
+    optics::RunState state = options.resume ? saved_state(folder.state_file(), scene, scene_hash)
+                                            : optics::begin(scene.parts, settings);
 
-    optics::Result result;
+    Checkpoints checkpoints(folder.state_file(),
+                            {std::filesystem::absolute(options.scene).string(), scene_hash});
     {
         ProgressLine line;
         std::signal(SIGINT, interrupt);
-        result = optics::simulate(
-            scene.parts, merged(scene.settings, options),
-            [&](const optics::Progress& progress) { line.show(progress); }, &interrupted);
+        std::signal(SIGTERM, interrupt);
+        optics::go_on(
+            scene.parts, settings, state,
+            {.on_progress = [&](const optics::Progress& progress) { line.show(progress); },
+             .on_phase = [&](const optics::RunState& now) { checkpoints.phase_done(now); },
+             .interrupted = &interrupted});
         std::signal(SIGINT, SIG_DFL);
+        std::signal(SIGTERM, SIG_DFL);
     }
+    checkpoints.save(state);
+    optics::Result result = state.result(scene.parts);
     result.warnings.insert(result.warnings.begin(), scene.warnings.begin(), scene.warnings.end());
 
-    const auto files = folder.write(result, {options.scene.string(), scene_hash});
+    auto files = folder.write(result, {options.scene.string(), scene_hash});
+    files.push_back({folder.state_file(), "to go on with --resume, or for lucerna merge"});
     fmt::print("{}", io::summary(result, files));
     return result.accuracy_reached ? done : accuracy_not_reached;
 }

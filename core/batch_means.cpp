@@ -1,34 +1,60 @@
 #include "core/batch_means.h"
 
-#include <algorithm>
-
 namespace lucerna {
+namespace {
+
+void add_to(std::span<double> sums, std::span<const double> values) {
+    for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += values[i];
+}
+
+}  // namespace
 
 void BatchMeans::add(std::span<const double> values) {
-    if (phases_ == most_batches * batch_size_) {
-        for (std::size_t pair = 0; pair < most_batches / 2; ++pair) {
-            for (std::size_t i = 0; i < value_count_; ++i) {
-                sums_[pair * value_count_ + i] =
-                    sums_[2 * pair * value_count_ + i] + sums_[(2 * pair + 1) * value_count_ + i];
-            }
-        }
-        sums_.resize(most_batches / 2 * value_count_);
-        batch_size_ *= 2;
-    }
-    if (phases_ % batch_size_ == 0) sums_.resize(sums_.size() + value_count_, 0.0);
-    double* last = sums_.data() + sums_.size() - value_count_;
-    for (std::size_t i = 0; i < value_count_; ++i) last[i] += values[i];
+    if (complete_batches_ == most_batches) join_pairs();
+    add_to(open_, values);
     ++phases_;
-    if (phases_ % batch_size_ != 0) return;
-    complete_sums_.resize(value_count_, 0.0);
-    for (std::size_t i = 0; i < value_count_; ++i) complete_sums_[i] += last[i];
+    if (++open_phases_ < batch_size_) return;
+    add_to(complete_, open_);
+    batches_.insert(batches_.end(), open_.begin(), open_.end());
+    ++complete_batches_;
+    open_.assign(value_count_, 0.0);
+    open_phases_ = 0;
+}
+
+// Batches twice as large. One that has no partner is left outside.
+void BatchMeans::join_pairs() {
+    const std::size_t pairs = complete_batches_ / 2;
+    if (complete_batches_ % 2 == 1) {
+        const auto last = batch(complete_batches_ - 1);
+        add_to(outside_, last);
+        for (std::size_t i = 0; i < value_count_; ++i) complete_[i] -= last[i];
+    }
+    for (std::size_t pair = 0; pair < pairs; ++pair) {
+        for (std::size_t i = 0; i < value_count_; ++i) {
+            batches_[pair * value_count_ + i] = batch(2 * pair)[i] + batch(2 * pair + 1)[i];
+        }
+    }
+    batches_.resize(pairs * value_count_);
+    complete_batches_ = pairs;
+    batch_size_ *= 2;
+}
+
+void BatchMeans::merge(const BatchMeans& other) {
+    BatchMeans same_size = other;
+    while (batch_size_ < same_size.batch_size_) join_pairs();
+    while (same_size.batch_size_ < batch_size_) same_size.join_pairs();
+    add_to(outside_, same_size.outside_);
+    add_to(outside_, same_size.open_);
+    add_to(complete_, same_size.complete_);
+    batches_.insert(batches_.end(), same_size.batches_.begin(), same_size.batches_.end());
+    complete_batches_ += same_size.complete_batches_;
+    phases_ += same_size.phases_;
+    while (complete_batches_ > most_batches) join_pairs();
 }
 
 double BatchMeans::mean(std::size_t value) const {
     if (phases_ == 0) return 0.0;
-    double sum = complete_sums_.empty() ? 0.0 : complete_sums_[value];
-    if (phases_ % batch_size_ != 0) sum += sums_[sums_.size() - value_count_ + value];
-    return sum / static_cast<double>(phases_);
+    return (complete_[value] + open_[value] + outside_[value]) / static_cast<double>(phases_);
 }
 
 }  // namespace lucerna

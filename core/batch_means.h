@@ -23,10 +23,17 @@ class BatchMeans {
 public:
     static constexpr std::size_t most_batches = 64;
 
-    explicit BatchMeans(std::size_t value_count = 0) : value_count_(value_count) {}
+    explicit BatchMeans(std::size_t value_count = 0)
+        : value_count_(value_count),
+          complete_(value_count),
+          open_(value_count),
+          outside_(value_count) {}
 
     /// Adds the values of one phase, as many as there are.
     void add(std::span<const double> values);
+    /// Joins the phases of an independent run, of as many values. Its last batch, if incomplete,
+    /// counts in the means alone.
+    void merge(const BatchMeans& other);
 
     std::uint64_t phases() const { return phases_; }
     double mean(std::size_t value) const;
@@ -37,7 +44,7 @@ public:
     Uncertain of(const Functional& functional) const {
         Uncertain result{functional([&](std::size_t i) { return mean(i); }),
                          std::numeric_limits<double>::infinity(), 0.0};
-        const std::size_t count = complete_batches();
+        const std::size_t count = complete_batches_;
         if (count < 2) return result;
         const auto batches = static_cast<double>(count);
         const double phases_left = (batches - 1.0) * static_cast<double>(batch_size_);
@@ -45,11 +52,10 @@ public:
         double squares = 0.0;
         for (std::size_t left_out = 0; left_out < count; ++left_out) {
             // Differences from the value itself keep the digits of the small spread.
-            const double without =
-                functional([&](std::size_t i) {
-                    return (complete_sums_[i] - batch(left_out)[i]) / phases_left;
-                }) -
-                result.value;
+            const double without = functional([&](std::size_t i) {
+                                       return (complete_[i] - batch(left_out)[i]) / phases_left;
+                                   }) -
+                                   result.value;
             sum += without;
             squares += without * without;
         }
@@ -62,19 +68,29 @@ public:
         return result;
     }
 
-    std::size_t bytes() const { return sums_.capacity() * sizeof(double); }
+    std::size_t bytes() const { return (batches_.size() + 3 * value_count_) * sizeof(double); }
+
+    /// Saves to an archive or loads from one.
+    template <typename Archive>
+    void serialize(Archive& archive) {
+        archive(phases_, batch_size_, complete_batches_, open_phases_, batches_, complete_, open_,
+                outside_);
+    }
 
 private:
-    std::size_t complete_batches() const { return phases_ / batch_size_; }
     std::span<const double> batch(std::size_t number) const {
-        return std::span(sums_).subspan(number * value_count_, value_count_);
+        return std::span(batches_).subspan(number * value_count_, value_count_);
     }
+    void join_pairs();
 
     std::size_t value_count_;
     std::uint64_t phases_ = 0;
-    std::uint64_t batch_size_ = 1;
-    std::vector<double> sums_;           // [batch][value]; the last batch may be incomplete
-    std::vector<double> complete_sums_;  // per value, over complete batches
+    std::uint64_t batch_size_ = 1;  // phases of a complete batch
+    std::uint64_t complete_batches_ = 0, open_phases_ = 0;
+    std::vector<double> batches_;   // sums [batch][value], of the complete ones
+    std::vector<double> complete_;  // per value, sum of the complete batches
+    std::vector<double> open_;      // of the batch that is not complete yet
+    std::vector<double> outside_;   // of phases that belong to no batch
 };
 
 }  // namespace lucerna

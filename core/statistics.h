@@ -63,6 +63,12 @@ public:
     double bias() const;
     double bias_standard_error() const;
 
+    /// Saves to an archive or loads from one.
+    template <typename Archive>
+    void serialize(Archive& archive) {
+        archive(count_, sum_, sum_of_squares_, bias_sum_, bias_sum_of_squares_, product_sum_);
+    }
+
 private:
     std::uint64_t count_ = 0;
     double sum_ = 0.0;

@@ -51,7 +51,8 @@ public:
         Imf::addChromaticities(header_, Imf::Chromaticities());  // BT.709 and D65 by default
         Imf::addWhiteLuminance(header_, 1.0F);                   // R = G = B = 1 is 1 cd/m2
         header_.insert("phases", Imf::IntAttribute(static_cast<int>(provenance.phases)));
-        header_.insert("seed", Imf::StringAttribute(std::to_string(provenance.seed)));
+        header_.insert("seed",
+                       Imf::StringAttribute(fmt::format("{}", fmt::join(provenance.seeds, " "))));
         header_.insert("sceneHash", Imf::StringAttribute(provenance.scene_hash));
         header_.insert("software", Imf::StringAttribute("Lucerna " LUCERNA_VERSION));
         add_rgb();

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "io/luminance_image.h"
 #include "optics/transport/result.h"
@@ -13,7 +14,7 @@ namespace lucerna::io {
 /// What an image file says about the run that made it.
 struct Provenance {
     std::uint32_t phases = 0;
-    std::uint64_t seed = 0;
+    std::vector<std::uint64_t> seeds;  ///< of the runs that were joined
     std::string scene_hash;
 };
 

@@ -142,6 +142,7 @@ std::string report_json(const optics::Result& result, const ReportSource& source
                  {"scene", source.scene},
                  {"scene_hash", source.scene_hash},
                  {"seed", result.settings.seed},
+                 {"seeds", result.seeds},
                  {"method", name_of(result.settings.method)},
                  {"scheduler", name_of(result.settings.scheduler)},
                  {"polarisation", result.settings.polarisation.value_or(false)},

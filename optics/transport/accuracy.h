@@ -1,44 +1,38 @@
 // When a simulation may stop.
 #pragma once
 
-#include <chrono>
-
-#include "optics/transport/readings.h"
-#include "optics/transport/simulate.h"
+#include "optics/transport/run_state.h"
 
 namespace lucerna::optics {
-
-/// Coverage of the expanded uncertainty that targets are stated for.
-inline constexpr double target_coverage = 0.95;
-
-/// Expanded uncertainty over what is asked of a value: at most 1 if that is reached; 0 if nothing
-/// is asked.
-double excess(const SensorTarget& target, double value, double expanded_uncertainty);
 
 /// Decides after each phase whether to go on. Accuracy is looked at only after 16, 19, 22, 26, ...
 /// phases, each step a fifth longer, and has to be reached at two looks in a row: looking after
 /// every phase would stop at lucky moments and make the stated error too small (THEORY, stop rule).
 class StopRule {
 public:
-    StopRule(const Settings& settings, bool has_cameras, bool has_sensors);
+    /// @param limits  accuracies, time limit and number of phases; the time that the run has taken
+    ///     before is part of the limit.
+    /// @param phases_done  after which the looks begin.
+    StopRule(const SceneParts& parts, Settings limits, std::uint32_t phases_done);
 
     /// Empty while the simulation goes on, else what stopped it.
-    /// @param worst_receiver  largest excess() among the receivers.
-    std::string check(std::uint32_t phases_done, const Readings& readings, double worst_receiver,
-                      double elapsed_s);
+    std::string check(const RunState& state);
 
     bool accuracy_reached() const { return reached_ || !asked(); }
     /// Wall time until the accuracy is reached if errors fall with the square root of time.
-    std::optional<double> left_s(const Readings& readings, double worst_receiver,
-                                 double elapsed_s) const;
+    std::optional<double> left_s(const RunState& state) const;
+    /// Noise of images to stop at, if there are any and it is asked for.
+    std::optional<double> image_accuracy() const { return image_accuracy_; }
 
 private:
     bool asked() const { return image_accuracy_ || sensors_asked_; }
+    void next_look() { next_look_ = std::max(next_look_ + 1, next_look_ * 6 / 5); }
     // Errors over what is asked for.
-    double excess_now(const Readings& readings, double worst_receiver) const;
+    double excess(const RunState& state) const;
 
-    std::optional<double> image_accuracy_, time_limit_s_;
-    std::optional<std::uint32_t> max_phases_;
+    const SceneParts& parts_;
+    Settings limits_;
+    std::optional<double> image_accuracy_;
     bool sensors_asked_ = false;
     std::uint32_t next_look_ = 16;
     int looks_reached_ = 0;  // in a row

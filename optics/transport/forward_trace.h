@@ -46,6 +46,12 @@ struct ForwardTally {
     std::uint64_t segments = 0;
 
     void operator+=(const ForwardTally& other);
+    /// Saves to an archive or loads from one.
+    template <typename Archive>
+    void serialize(Archive& archive) {
+        archive(emitted, escaped, trapped, inconsistent, numerical, residue, absorbed_by_object,
+                absorbed_by_solid, received_front, received_back, segments);
+    }
 };
 
 /// How far forward rays are followed.

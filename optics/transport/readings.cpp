@@ -6,7 +6,6 @@
 #include <bit>
 
 #include "core/parallel.h"
-#include "optics/transport/accuracy.h"
 #include "spectral/colorimetry.h"
 
 namespace lucerna::optics {
@@ -96,7 +95,6 @@ Readings::Readings(const SceneParts& parts, const Settings& settings)
         is_camera_.push_back(camera);
         first_sensor_bin_.push_back(sensor_bins_);
         if (!camera) sensor_bins_ += count;
-        targets_.push_back(settings.target_of(name_of(parts.observers[i])));
         means_.emplace_back();
         if (camera) {
             const Camera& view = std::get<Camera>(parts.observers[i]);
@@ -165,6 +163,24 @@ void Readings::fold(const Phase& phase, PhaseReadings& values, int threads) {
             values.spectral_[i] = 0.0;
         }
     });
+}
+
+void Readings::merge(const Readings& other) {
+    for (std::size_t i = 0; i < means_.size(); ++i) {
+        for (std::size_t tile = 0; tile < means_[i].tiles.size(); ++tile) {
+            means_[i].tiles[tile].merge(other.means_[i].tiles[tile]);
+        }
+        means_[i].whole.merge(other.means_[i].whole);
+    }
+    for (std::size_t bin = 0; bin < luminance_.size(); ++bin) {
+        luminance_[bin].merge(other.luminance_[bin]);
+        x_sum_[bin] += other.x_sum_[bin];
+        z_sum_[bin] += other.z_sum_[bin];
+    }
+    for (std::size_t i = 0; i < spectral_sum_.size(); ++i) {
+        spectral_sum_[i] += other.spectral_sum_[i];
+    }
+    sensors_.merge(other.sensors_);
 }
 
 void Readings::fold_sensors(const Phase& phase, const PhaseReadings& readings) {
@@ -244,10 +260,12 @@ double Readings::delta() const {
     return square > 0.0 ? std::sqrt(variance / square) : 0.0;
 }
 
-double Readings::worst_sensor() const {
+double Readings::worst_sensor(const SceneParts& parts, const Settings& targets) const {
     double worst = 0.0;
     for (std::size_t i = 0; i < observers_.size(); ++i) {
         if (is_camera_[i]) continue;
+        const SensorTarget target =
+            targets.target_of(name_of(parts.observers[observers_[i].observer]));
         const double degrees = luminance_[observers_[i].first_bin].degrees_of_freedom();
         if (degrees < 1.0) return infinity;
         const double t = student_t(target_coverage, degrees);
@@ -255,7 +273,7 @@ double Readings::worst_sensor() const {
             const Estimate& estimate = luminance_[observers_[i].first_bin + bin];
             const double expanded =
                 std::hypot(t * estimate.standard_error(), target_coverage * estimate.bias_left());
-            worst = std::max(worst, excess(targets_[i], estimate.value(), expanded));
+            worst = std::max(worst, target.excess(estimate.value(), expanded));
         }
     }
     return worst;

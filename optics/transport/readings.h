@@ -54,6 +54,21 @@ public:
     PhaseReadings new_phase() const { return {luminance_.size(), spectral_bins_}; }
     /// Ends a phase: its values enter the estimates and are set back to zero.
     void fold(const Phase& phase, PhaseReadings& values, int threads);
+    /// Joins the phases of an independent run of the same scene and settings.
+    void merge(const Readings& other);
+    /// Saves what was folded to an archive, or loads it in readings of the same scene and settings.
+    template <typename Archive>
+    void serialize(Archive& archive) {
+        for (ImageMeans& means : means_) {
+            for (Estimate& tile : means.tiles) archive(tile);
+            archive(means.whole);
+        }
+        for (Estimate& estimate : luminance_) archive(estimate);
+        for (std::vector<double>* sums : {&x_sum_, &z_sum_, &spectral_sum_}) {
+            for (double& sum : *sums) archive(sum);
+        }
+        archive(sensors_);
+    }
 
     std::vector<Image> images(const SceneParts& parts) const;
     std::vector<Quantity> quantities(const SceneParts& parts) const;
@@ -64,7 +79,7 @@ public:
     double delta() const;
     /// Largest ratio of the expanded uncertainty of a sensor to what is asked for; 0 without
     /// sensors of which anything is asked.
-    double worst_sensor() const;
+    double worst_sensor(const SceneParts& parts, const Settings& targets) const;
     std::size_t bytes() const;
 
 private:
@@ -92,7 +107,6 @@ private:
     std::vector<ImageMeans> means_;  // per ObserverBins
     std::vector<Estimate> luminance_;
     std::vector<double> x_sum_, z_sum_;          // kernel bias included
-    std::vector<SensorTarget> targets_;          // per ObserverBins; of cameras not used
     std::vector<std::size_t> first_sensor_bin_;  // per ObserverBins, among the bins of sensors
     std::size_t sensor_bins_ = 0;
     // X, Y, Z of each bin of a sensor, the kernel bias taken off, and last those of the emission of

@@ -93,6 +93,13 @@ struct RayCounts {
     double readings_s = 0.0;   ///< backward map read, phase folded into the estimates
 
     void operator+=(const RayCounts& other);
+    /// Saves to an archive or loads from one.
+    template <typename Archive>
+    void serialize(Archive& archive) {
+        archive(backward_rays, caustic_rays, secondary_rays, backward_segments, forward_segments,
+                shadow_segments, forward_photons, backward_photons, scattering_hits, deposits,
+                setup_s, pilot_s, caustic_s, maps_s, backward_s, secondary_s, readings_s);
+    }
 };
 
 struct Result {
@@ -103,9 +110,10 @@ struct Result {
     RayCounts rays;
     std::uint64_t forward_map_bytes = 0, backward_map_bytes = 0, image_bytes = 0;  ///< largest seen
     Settings settings;
+    std::vector<std::uint64_t> seeds;  ///< of the runs that were joined in it; else that of the run
     std::uint32_t phases = 0;
     double wall_s = 0.0;
-    std::string stopped_by;  ///< "accuracy", "time limit", "phases", "interruption"
+    std::string stopped_by;  ///< "accuracy", "time limit", "phases", "interruption", "merge"
     bool accuracy_reached = true;
     std::vector<std::string> warnings;
 };

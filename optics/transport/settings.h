@@ -35,7 +35,10 @@ enum class PlantedError {
     gap            ///< backward photons refuse light that comes straight from a light
 };
 
-/// An expanded uncertainty (95 %) to reach.
+/// Coverage of the expanded uncertainties that targets are stated for.
+inline constexpr double target_coverage = 0.95;
+
+/// An expanded uncertainty to reach.
 struct SensorTarget {
     std::string sensor;     ///< name of a sensor; each of its points has to reach it
     double relative = 0.0;  ///< share of the value, such as 0.01; or
@@ -44,6 +47,18 @@ struct SensorTarget {
     /// The expanded uncertainty asked for of a value, in its unit; 0 if nothing is asked.
     double wanted(double value) const {
         return absolute > 0.0 ? absolute : relative * std::abs(value);
+    }
+    /// Expanded uncertainty over what is asked of a value: at most 1 if that is reached; 0 if
+    /// nothing is asked.
+    double excess(double value, double expanded_uncertainty) const {
+        if (!(relative > 0.0 || absolute > 0.0)) return 0.0;
+        // What is exactly known, such as darkness, is known well enough.
+        return expanded_uncertainty > 0.0 ? expanded_uncertainty / wanted(value) : 0.0;
+    }
+    /// Saves to an archive or loads from one.
+    template <typename Archive>
+    void serialize(Archive& archive) {
+        archive(sensor, relative, absolute);
     }
 };
 
@@ -72,6 +87,12 @@ struct Settings {
             if (target.sensor == sensor) return target;
         }
         return {sensor, sensor_accuracy.value_or(0.0), 0.0};
+    }
+    /// Saves what phases rest on to an archive or loads it from one.
+    template <typename Archive>
+    void serialize(Archive& archive) {
+        archive(method, seed, scheduler, sensor_accuracy, sensor_targets, forward_rays,
+                samples_per_pixel, spectral_bins, polarisation);
     }
 };
 

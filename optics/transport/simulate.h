@@ -5,8 +5,7 @@
 #include <functional>
 
 #include "optics/scene.h"
-#include "optics/transport/result.h"
-#include "optics/transport/settings.h"
+#include "optics/transport/run_state.h"
 
 namespace lucerna::optics {
 
@@ -20,13 +19,29 @@ struct Progress {
     std::optional<double> left_s;
 };
 
+/// What may watch over a simulation; all of it is called and looked at after each phase.
+struct Watch {
+    std::function<void(const Progress&)> on_progress;
+    std::function<void(const RunState&)> on_phase;
+    const std::atomic<bool>* interrupted = nullptr;  ///< ends the simulation when it turns true
+};
+
 /// Simulates until the accuracy asked for, the time limit or the number of phases is reached;
 /// without any of them until the images have delta = 2 % and the sensors a standard error of 1 %.
 /// Same scene, settings and seed give the same bits for any number of threads, unless a time limit
 /// or an interruption ends the run. Throws InputError if a part of the scene is inconsistent.
-/// @param interrupted  checked after each phase; the result so far is returned when it turns true.
-Result simulate(const SceneParts& parts, const Settings& settings,
-                const std::function<void(const Progress&)>& on_progress = {},
-                const std::atomic<bool>* interrupted = nullptr);
+Result simulate(const SceneParts& parts, const Settings& settings, const Watch& watch = {});
+
+/// The state in which a simulation with these settings begins.
+RunState begin(const SceneParts& parts, const Settings& settings);
+
+/// Goes on from a state, with the settings that its phases rest on and other limits: a run that
+/// goes on to a number of phases has the bits of one that went there at once. One that goes on to
+/// an accuracy may stop a look later than that (see StopRule), because it wants two looks of its
+/// own.
+/// @param limits  accuracies and number of phases to stop at, the time to stop after from now, and
+///     the threads; all else in it is ignored.
+void go_on(const SceneParts& parts, const Settings& limits, RunState& state,
+           const Watch& watch = {});
 
 }  // namespace lucerna::optics

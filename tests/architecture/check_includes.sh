@@ -35,6 +35,7 @@ libraries=(
     "OpenColorIO/ io/display_encoding.cpp"
     "png.h io/raster.cpp"
     "nlohmann/ @(io/report|io/benchmark_json|validation/report_json).cpp"
+    "cereal/ io/state_file.cpp"
     "pugixml io/bsdf_xml.cpp"
     "yaml-cpp/ io/yaml_tree.*"
     "CLI/ cli/main.cpp"

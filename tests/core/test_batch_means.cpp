@@ -95,3 +95,36 @@ TEST_CASE("One phase has no error", "[unit]") {
     CHECK(mean.value == 2.0);
     CHECK(std::isinf(mean.expanded_uncertainty()));
 }
+
+TEST_CASE("Joined runs have the mean and the error of all of their phases", "[property]") {
+    const auto [one, other] = GENERATE(table<std::uint32_t, std::uint32_t>(
+        {{40u, 50u}, {64u, 64u}, {300u, 20u}, {20u, 300u}, {129u, 1000u}, {40u, 0u}}));
+    BatchMeans joined(2);
+    BatchMeans second(2);
+    Estimate all;
+    RandomStream random(4, 0, RandomPurpose::test, 0);
+    for (std::uint32_t i = 0; i < one + other; ++i) {
+        const auto values = phase_values(random);
+        (i < one ? joined : second).add(values);
+        all.add(values[0]);
+    }
+    joined.merge(second);
+    INFO(one << " and " << other << " phases");
+    CHECK(joined.phases() == one + other);
+    CHECK_THAT(joined.mean(0), WithinRel(all.mean(), 1e-13));
+    const Uncertain mean = joined.of([](auto&& m) { return m(0); });
+    // n batches know a standard error to 1 / sqrt(2 (n - 1)), here 4 or at least 15 of them; five
+    // of it.
+    CHECK(mean.standard_error > 0.0);
+    CHECK_THAT(mean.standard_error,
+               WithinRel(all.standard_error(), 5.0 / std::sqrt(2.0 * mean.degrees_of_freedom)));
+    CHECK(mean.degrees_of_freedom < BatchMeans::most_batches);
+    // Phases that follow are not lost either.
+    for (std::uint32_t i = 0; i < 200; ++i) {
+        const auto values = phase_values(random);
+        joined.add(values);
+        all.add(values[0]);
+    }
+    CHECK(joined.phases() == one + other + 200);
+    CHECK_THAT(joined.mean(0), WithinRel(all.mean(), 1e-13));
+}

@@ -69,6 +69,7 @@ optics::Result example_result() {
     result.flux_balance_lm.escaped = 111.1;
     result.flux_balance_lm.roulette_residue = 0.1;
     result.settings.seed = 18446744073709551615ULL;  // does not fit a double
+    result.seeds = {result.settings.seed};
     result.settings.threads = 2;
     result.phases = 2;
     result.wall_s = 1.5;

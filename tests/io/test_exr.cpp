@@ -24,7 +24,7 @@ using Catch::Matchers::WithinRel;
 
 namespace {
 
-const Provenance provenance{7, 42, "abc"};
+const Provenance provenance{7, {42}, "abc"};
 
 // One channel as any reader of OpenEXR sees it.
 std::vector<float> channel(const std::filesystem::path& path, const std::string& name) {

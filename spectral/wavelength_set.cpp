@@ -90,7 +90,7 @@ WavelengthSet WavelengthSampler::sample(std::uint64_t seed, std::uint32_t phase)
     const double shift = random.uniform();
 
     WavelengthSet set;
-    set.hero = static_cast<int>(random.uniform() * lane_count);
+    set.first_common = static_cast<int>(random.uniform() * 2.0);
     for (int k = 0; k < lane_count; ++k) {
         const double wavelength_nm = quantile_nm((k + shift) / lane_count);
         const double interval_nm = 1.0 / (lane_count * pdf_per_nm(wavelength_nm));

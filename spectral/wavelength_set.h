@@ -21,13 +21,14 @@ struct WavelengthSet {
     Lanes luminance;    ///< K_m V(lambda) interval: spectral radiance [W/(m2 sr nm)] -> cd/m2
     Lanes x;            ///< the same with x-bar: -> X on the scale where Y is cd/m2
     Lanes z;            ///< the same with z-bar
-    int hero = 0;       ///< the lane that goes on alone behind a dispersive refraction, uniform
+    /// The phase's common lanes are this one, 0 or 1 and as likely, and every second one after it.
+    int first_common = 0;
 
     /// Values of a spectrum at these wavelengths.
     Lanes at(const Spectrum& spectrum) const;
 };
 
-/// Whether paths of the scene are split by wavelength, so that the hero lane carries the estimate.
+/// Whether paths of the scene are split by wavelength, so that a single lane carries each of them.
 enum class Dispersion { none, present };
 
 /// Draws the wavelength set of each phase from a density that follows the scene's emission, seen by
@@ -43,8 +44,9 @@ enum class Dispersion { none, present };
 /// shift, so that the luminance of a grey scene varies from phase to phase by 0.3 to 1.4 % for
 /// CIE E, A, LED-B3, LED-RGB1 and FL11, X by 1.4 to 3.3 % and Z by 4 to 18 %. More weight on V
 /// would not steady luminance (0.8 0.15 0 0.05: 1.0 to 1.8 %) but makes Z three to five times as
-/// noisy. With dispersion one wavelength stands for all, and what counts is how much emission V / p
-/// varies over the spectrum: (0.80 0.10 0.08 0.02) halves that, from about 47 % to 25 %.
+/// noisy. With dispersion each path has one wavelength for all, and what counts is how much
+/// emission V / p varies over the spectrum: (0.80 0.10 0.08 0.02) halves that, from about 47 % to
+/// 25 %.
 class WavelengthSampler {
 public:
     /// @param emission  spectral radiant flux of all lights together [any scale].
@@ -53,9 +55,9 @@ public:
 
     /// Wavelengths of a phase, in increasing order; depends on (seed, phase) only.
     ///
-    /// The shift common to all strata and the hero lane are drawn anew for each phase: then phases
-    /// are independent, and their spread states the error of their mean. (A sequence that fills
-    /// the interval evenly over the phases would err less, but nothing in the run could tell by how
+    /// The shift of all strata and the common lanes are drawn anew for each phase: then phases are
+    /// independent, and their spread states the error of their mean. (A sequence that fills the
+    /// interval evenly over the phases would err less, but nothing in the run could tell by how
     /// much: stated errors of quiet readings would be several times too large.)
     WavelengthSet sample(std::uint64_t seed, std::uint32_t phase) const;
 

@@ -19,7 +19,8 @@ struct BackwardPhoton {
     ObjectId medium_above, medium_below;
     std::uint32_t bin;     ///< of the readings
     std::uint8_t accepts;  ///< History values, or-ed
-    bool hero_only;
+    bool hero_only;        ///< see Path
+    std::uint8_t hero;
 };
 
 /// Filled by forward rays and then read once. By find() and apply() the sums of a backward photon

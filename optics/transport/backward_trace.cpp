@@ -76,7 +76,8 @@ private:
         path_.media = media_of_observer_;
         path_.weight = Lanes::Constant(1.0f / static_cast<float>(rays_.count));
         path_.hero_only = false;
-        path_.hero = phase_.wavelengths.hero;
+        // Even over the rays of a bin, so that their mean has hardly any noise of wavelengths.
+        path_.hero = phase_.stage.disperses() ? choose_common_hero(phase_, random.pair()[0]) : 0;
         path_.lossless_events = 0;
         path_.polarisation.depolarise();
         importance_ = 1.0;
@@ -269,6 +270,7 @@ private:
     // their weights differ: there a share of them gathers, chosen beforehand.
     void gather_where_seen(const GatherPoint& at) {
         const std::uint8_t histories = collection_.first_gather;
+        if (path_.hero_only) return gather(at, histories, path_.weight);
         if (specular_since_) {
             if (specular_gather_weight_ > 0.0f) {
                 gather(at, histories, specular_gather_weight_ * path_.weight);
@@ -344,7 +346,8 @@ private:
                            .medium_below = encounter.medium_below,
                            .bin = bin_,
                            .accepts = accepts,
-                           .hero_only = path_.hero_only});
+                           .hero_only = path_.hero_only,
+                           .hero = static_cast<std::uint8_t>(path_.hero)});
     }
 
     const Phase& phase_;

@@ -251,7 +251,7 @@ private:
                 const Frame frame = bsdf_frame(phase_, vertex.point);
                 const SurfaceOptics optics =
                     optics_at(phase_, vertex.medium_above, vertex.medium_below, vertex.hero_only,
-                              phase_.wavelengths.hero);
+                              vertex.hero);
                 const Bsdf& bsdf = stage_.parts().bsdfs[vertex.bsdf];
                 sum += map.gather(phase_, radii, {vertex.point, frame, vertex.wo, bsdf, optics})
                            .radiance;

@@ -25,6 +25,8 @@ public:
     RandomStream random(std::uint32_t index) const {
         return {phase_.seed, phase_.number, purpose_, index};
     }
+    /// Whether the rays have common heroes: those whose photons backward rays gather.
+    bool common_heroes() const { return purpose_ == RandomPurpose::caustic; }
     Departure depart(std::uint32_t index, RandomStream& random) const;
 
 private:

@@ -65,7 +65,8 @@ void add_illuminance_points(const TraceContext& context, SeenPoints& seen) {
                  .medium_below = no_object,
                  .bin = point.index,
                  .accepts = all_light,
-                 .hero_only = false});
+                 .hero_only = false,
+                 .hero = 0});
             seen.targets.push_back(seen.target_count());
             seen.of_images.push_back(false);
         }

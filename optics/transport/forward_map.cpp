@@ -2,6 +2,8 @@
 
 #include <bit>
 
+#include "optics/transport/path.h"
+
 namespace lucerna::optics {
 bool in_kernel(const Stage& stage, const SurfacePoint& p, const SurfacePoint& q, double radius_m) {
     if ((p.position - q.position).squaredNorm() >= radius_m * radius_m) return false;
@@ -91,9 +93,12 @@ Gathered ForwardMap::gather(const Phase& phase, const Radii& radii, const Gather
                     if (!straight && !in_kernel(stage, at.point, photon.point, radius_m)) continue;
                     found = true;
                     const bool above = photon.direction.dot(photon.point.normal) < 0.0;
-                    const Lanes light =
+                    Lanes light =
                         photon.flux * (diffuse ? (above ? from_above : from_below)
                                                : scattered(kernel_direction(at.frame, photon)));
+                    if (photon.on_common_lane && at.optics.hero_only) {
+                        light *= weight_of_common_heroes;
+                    }
                     sum.radiance += light;
                     if (distance_m2 < inner_square_m2 &&
                         (straight || in_kernel(stage, at.point, photon.point, inner_m))) {

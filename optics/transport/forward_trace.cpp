@@ -10,39 +10,21 @@ void add(std::vector<double>& sum, const std::vector<double>& part) {
     for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += part[i];
 }
 
-// Each forward path has a hero lane of its own, so that the light behind dispersive boundaries is
-// sampled at all wavelengths within a phase. Half of the paths have the phase's hero, the lane of
-// all backward paths: only these meet a backward path that went through a dispersive boundary
-// itself. Given the phase, the flux of each lane is unbiased.
-constexpr double share_of_phase_hero = 0.5;
-
-double hero_probability(const Phase& phase, int lane) {
-    constexpr int others = spectral::lane_count - 1;
-    return lane == phase.wavelengths.hero ? share_of_phase_hero
-                                          : (1.0 - share_of_phase_hero) / others;
-}
-
-int choose_hero(const Phase& phase, double u) {
-    constexpr int others = spectral::lane_count - 1;
-    if (u < share_of_phase_hero) return phase.wavelengths.hero;
-    const double rest = (u - share_of_phase_hero) / (1.0 - share_of_phase_hero);
-    const int step = 1 + static_cast<int>(rest * others);
-    return (phase.wavelengths.hero + std::min(step, others)) % spectral::lane_count;
-}
-
-Path emitted_path(const Phase& phase, const Departure& departure, RandomStream& random) {
+Path emitted_path(const Phase& phase, const Departure& departure, bool common_hero,
+                  RandomStream& random) {
     const Stage& stage = phase.stage;
     const Light& light = stage.parts().lights[departure.light];
     const auto& [u1, u2, u3, u4] = departure.u;
     const EmittedRay emitted = emit(light.source, u1, u2, u3, u4);
     const double scale =
         emitted.weight * departure.weight / stage.light_choice().probability(departure.light);
+    const double u_hero = random.uniform();
     return {.ray = emitted.ray,
             .start = emitted.surface,
             .media = stage.media_at(emitted.ray.origin + stage.nudge_m() * emitted.ray.direction),
             .weight = phase.spectra[light.flux_w_per_nm] * static_cast<float>(scale),
             .hero_only = false,
-            .hero = choose_hero(phase, random.uniform()),
+            .hero = common_hero ? choose_common_hero(phase, u_hero) : choose_hero(u_hero),
             .lossless_events = 0};
 }
 
@@ -68,10 +50,12 @@ void trace_forward(const Phase& phase, const Emission& emission, std::uint32_t i
     const Stage& stage = phase.stage;
     const SceneParts& parts = stage.parts();
     RandomStream random = emission.random(index);
-    Path path = emitted_path(phase, emission.depart(index, random), random);
+    Path path =
+        emitted_path(phase, emission.depart(index, random), emission.common_heroes(), random);
     History history = History::direct;
     double flux_lm = phase.luminous(path.weight);
     tally.emitted += flux_lm;
+    const auto on_common_lane = [&] { return path.hero_only && emission.common_heroes(); };
 
     while (true) {
         const auto encounter = next_encounter(phase, path);
@@ -83,7 +67,7 @@ void trace_forward(const Phase& phase, const Emission& emission, std::uint32_t i
             planes->crossings(path.ray, length_m, [&](const SurfacePoint& point) {
                 const double way_m = (point.position - path.ray.origin).norm();
                 arrive({point, path.ray.direction, path.weight * phase.transmittance(medium, way_m),
-                        history});
+                        history, on_common_lane()});
             });
         }
         if (!encounter) {
@@ -110,7 +94,7 @@ void trace_forward(const Phase& phase, const Emission& emission, std::uint32_t i
             continue;
         }
         if (stage.scatters(encounter->bsdf)) {
-            arrive({encounter->point, path.ray.direction, path.weight, history});
+            arrive({encounter->point, path.ray.direction, path.weight, history, on_common_lane()});
             // A surface with both kinds of lobes lets the path go on by the specular one.
         }
         const SurfaceOptics at = optics_at(phase, *encounter, path);
@@ -125,11 +109,6 @@ void trace_forward(const Phase& phase, const Emission& emission, std::uint32_t i
         }
         const bool turned_hero = sampled->hero_only && !path.hero_only;
         follow(path, *encounter, *sampled);
-        // The sample counts on a hero chosen with probability 1 / lane_count.
-        if (turned_hero) {
-            path.weight /=
-                static_cast<float>(spectral::lane_count * hero_probability(phase, path.hero));
-        }
         factor *= turned_hero ? sampled->weight[path.hero] / spectral::lane_count
                               : live_max(path, sampled->weight);
         const double scattered_lm = phase.luminous(path.weight);

@@ -29,6 +29,7 @@ struct Photon {
     Vec3 direction;  ///< unit, along the flight of the light
     Lanes flux;      ///< [W/nm] when divided by the number of rays of the trace
     History history;
+    bool on_common_lane = false;  ///< alone on it, see choose_common_hero()
 };
 
 /// Counts of a block of forward rays. All fluxes in lm, not yet divided by the number of rays.

@@ -30,10 +30,9 @@ spectral::Spectrum total_emission(const SceneParts& parts) {
     return {std::move(wavelengths_nm), std::move(values), spectral::Outside::zero};
 }
 
-spectral::Dispersion dispersion_of(const SceneParts& parts) {
-    const bool dispersive = std::any_of(parts.media.begin(), parts.media.end(),
-                                        [](const Medium& medium) { return medium.dispersive; });
-    return dispersive ? spectral::Dispersion::present : spectral::Dispersion::none;
+bool any_disperses(const SceneParts& parts) {
+    return std::any_of(parts.media.begin(), parts.media.end(),
+                       [](const Medium& medium) { return medium.dispersive; });
 }
 
 std::vector<double> luminous_fluxes(const SceneParts& parts) {
@@ -74,7 +73,9 @@ const SceneParts& checked(const SceneParts& parts) {
 Stage::Stage(const SceneParts& parts, std::optional<bool> polarisation)
     : parts_(checked(parts)),
       caster_(shapes_of(parts)),
-      wavelengths_(total_emission(parts), dispersion_of(parts)),
+      disperses_(any_disperses(parts)),
+      wavelengths_(total_emission(parts),
+                   disperses_ ? spectral::Dispersion::present : spectral::Dispersion::none),
       light_of_object_(parts.objects.size(), no_light),
       light_choice_(luminous_fluxes(parts)) {
     for (std::uint32_t i = 0; i < parts_.lights.size(); ++i) {

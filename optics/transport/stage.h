@@ -45,6 +45,8 @@ public:
     bool has_caustics() const { return has_caustics_; }
     /// True if paths carry the polarisation of their light from event to event.
     bool follows_polarisation() const { return follows_polarisation_; }
+    /// True if the index of a medium depends on wavelength, so that paths split.
+    bool disperses() const { return disperses_; }
     /// True if a straight line can cross surfaces that do not act on light.
     bool has_null_surfaces() const { return has_null_surfaces_; }
 
@@ -57,6 +59,7 @@ public:
 private:
     SceneParts parts_;
     RayCaster caster_;
+    bool disperses_;
     spectral::WavelengthSampler wavelengths_;
     std::vector<std::uint32_t> light_of_object_;
     DiscreteDistribution light_choice_;

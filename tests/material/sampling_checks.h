@@ -102,8 +102,8 @@ inline void check_sampler(const Surface& surface, const Vec3& wo, Transport tran
     check_refutes(counts, expected, larger);
     const MeanWeight weight = mean_weight(surface, wo, transport, 200'000);
     const auto albedo = quadrature_albedo(surface, wo, transport);
-    for (const int lane : {surface.wavelengths.hero, 12}) {
-        if (surface.hero_only && lane != surface.wavelengths.hero) continue;
+    for (const int lane : {surface.hero, 12}) {
+        if (surface.hero_only && lane != surface.hero) continue;
         INFO("lane " << lane);
         // The quadrature is good to 1e-3 for the narrowest lobes here.
         check_mean(weight.mean[lane], weight.standard_error[lane], albedo[lane], detects,

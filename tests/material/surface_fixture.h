@@ -27,6 +27,7 @@ struct Surface {
     spectral::WavelengthSet wavelengths;
     Lanes index_above = lanes(1.0), index_below = lanes(1.0);
     bool dispersive = false, hero_only = false;
+    int hero = 5;
 
     Surface() {
         for (int k = 0; k < spectral::lane_count; ++k) {
@@ -34,7 +35,6 @@ struct Surface {
         }
         wavelengths.interval_nm = wavelengths.luminance = wavelengths.x = wavelengths.z =
             lanes(1.0);
-        wavelengths.hero = 5;
     }
     SpectrumId spectrum(const Lanes& values) {
         spectra.push_back(values);
@@ -46,8 +46,7 @@ struct Surface {
     }
     const Bsdf& bsdf() const { return bsdfs.back(); }
     optics::SurfaceOptics at() const {
-        return {bsdfs,       spectra,    wavelengths, index_above,
-                index_below, dispersive, hero_only,   wavelengths.hero};
+        return {bsdfs, spectra, wavelengths, index_above, index_below, dispersive, hero_only, hero};
     }
 };
 

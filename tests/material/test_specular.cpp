@@ -121,7 +121,7 @@ TEST_CASE("Every lane of a dispersive boundary is right in the mean over heroes"
     const Transport transport = GENERATE(Transport::radiance, Transport::flux);
     Lanes mean = Lanes::Zero();
     for (int hero = 0; hero < spectral::lane_count; ++hero) {
-        surface.wavelengths.hero = hero;
+        surface.hero = hero;
         mean += expectation(surface, wo, transport, g) / spectral::lane_count;
     }
     const bool above = wo.z() > 0.0;

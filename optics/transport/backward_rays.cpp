@@ -33,21 +33,49 @@ struct Pixel {
     float cost;       // segments of its path
 };
 
-// Of a pixel with its neighbours: edges are thinner than the few rays of a single pixel can find.
-std::vector<Pixel> pixels_of(const Camera& camera, const RaySums* sums) {
-    std::vector<Pixel> result;
-    for (int y = 0; y < camera.height; ++y) {
-        for (int x = 0; x < camera.width; ++x) {
-            RaySums near;
-            for (int j = std::max(0, y - 1); j <= std::min(camera.height - 1, y + 1); ++j) {
-                for (int i = std::max(0, x - 1); i <= std::min(camera.width - 1, x + 1); ++i) {
-                    near += sums[j * camera.width + i];
+// Sum over the pixels around each one, up to `reach` of them to each side.
+template <typename T>
+std::vector<T> summed_around(const Camera& camera, const T* values, int reach) {
+    const auto along = [&](const T* from, int count, int lines, int step, int line_step) {
+        std::vector<T> sums(static_cast<std::size_t>(count * lines));
+        for (int line = 0; line < lines; ++line) {
+            for (int i = 0; i < count; ++i) {
+                T sum{};
+                for (int k = std::max(0, i - reach); k <= std::min(count - 1, i + reach); ++k) {
+                    sum += from[k * step + line * line_step];
                 }
+                sums[static_cast<std::size_t>(i * step + line * line_step)] = sum;
             }
-            const float mean = near.luminance / near.rays;
-            result.push_back({std::sqrt(std::max(0.0f, near.square / near.rays - mean * mean)),
-                              near.segments / near.rays});
         }
+        return sums;
+    };
+    const std::vector<T> rows = along(values, camera.width, camera.height, 1, camera.width);
+    return along(rows.data(), camera.height, camera.width, camera.width, 1);
+}
+
+// Of a pixel with its neighbours: edges are thinner than the few rays of a single pixel can find.
+// Where each pixel had one ray only, as in large images, half of the variance is that of a wider
+// surrounding: nine rays miss most of the rare bright events of a region. (With four rays a pixel
+// that gains nothing, and edges are blurred: 9 % more error of a diffuse room.)
+std::vector<Pixel> pixels_of(const Camera& camera, const RaySums* sums) {
+    constexpr int wide = 4;
+    const std::vector<RaySums> near = summed_around(camera, sums, 1);
+    std::vector<float> variances;
+    for (const RaySums& rays : near) {
+        const float mean = rays.luminance / rays.rays;
+        variances.push_back(std::max(0.0f, rays.square / rays.rays - mean * mean));
+    }
+    if (sums->rays <= 1.0f) {
+        const std::vector<float> ones(near.size(), 1.0f);
+        const std::vector<float> around = summed_around(camera, variances.data(), wide);
+        const std::vector<float> counts = summed_around(camera, ones.data(), wide);
+        for (std::size_t i = 0; i < variances.size(); ++i) {
+            variances[i] = 0.5f * (variances[i] + around[i] / counts[i]);
+        }
+    }
+    std::vector<Pixel> result;
+    for (std::size_t i = 0; i < near.size(); ++i) {
+        result.push_back({std::sqrt(variances[i]), near[i].segments / near[i].rays});
     }
     return result;
 }

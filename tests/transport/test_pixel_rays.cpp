@@ -94,6 +94,27 @@ TEST_CASE("Pixels whose rays differ more get more rays") {
     CHECK(next == count);
 }
 
+TEST_CASE("Rays follow rare bright events also where the pilot met none of them") {
+    const SceneBuilder scene = disk();
+    const Settings settings;
+    const Readings readings(scene.parts, settings);
+    constexpr std::size_t count = pixels * pixels, event = 5 * pixels + 7, lonely = 9 * pixels + 10;
+    // A single ray a pixel, of deviation 1, and one ray in 81 that met something 100 times as
+    // bright.
+    const auto rays_of_lonely = [&](float per_pixel) {
+        std::vector<RaySums> sums(
+            count, {.rays = per_pixel, .luminance = 0, .square = per_pixel, .segments = 4});
+        sums[event].square = 1e4f;
+        BackwardRays rays(scene.parts, readings, settings);
+        rays.share_out(scene.parts, readings, sums, false);
+        CHECK(rays.of(0, lonely).count >= rays.of(0, 25 * pixels + 25).count);
+        return static_cast<double>(rays.of(0, lonely).count) / rays.of(0, 25 * pixels + 25).count;
+    };
+    // Its variance, 1e4 in 9 of 81 pixels, is 123 on average, a deviation of 8 for half of it.
+    CHECK(rays_of_lonely(1.0f) >= 4.0);
+    CHECK(rays_of_lonely(4.0f) == 1.0);
+}
+
 TEST_CASE("The rim of a lamp: pixels read what it covers of them", "[analytic]") {
     const SceneBuilder scene = disk();
     const std::vector<double> share = covered();

@@ -101,6 +101,10 @@ ExitCode merge(const MergeOptions& options) {
     io::write_state(folder.state_file(), joined, source);
     optics::Result result = joined.result(scene.parts);
     result.warnings.insert(result.warnings.begin(), scene.warnings.begin(), scene.warnings.end());
+    if (!scene.uncertain_inputs.empty()) {
+        result.warnings.emplace_back(
+            "the uncertainties that the scene states for inputs are not part of a joined result");
+    }
     auto written = folder.write(result, source);
     written.push_back({folder.state_file(), "for lucerna merge"});
     fmt::print("{}", io::summary(result, written));

@@ -79,6 +79,35 @@ optics::RunState saved_state(const std::filesystem::path& path, const io::SceneF
     return state;
 }
 
+// Simulates the scene once more for each uncertain input, shifted by its uncertainty: by the same
+// seed and as many phases, so that the change is not that of the noise.
+void look_into_inputs(const RunOptions& options, const io::SceneFile& scene,
+                      const optics::RunState& state, optics::Result& result) {
+    optics::Settings settings = state.settings;
+    settings.max_phases = state.phases;
+    for (std::size_t i = 0; i < scene.uncertain_inputs.size() && !interrupted; ++i) {
+        const io::UncertainInput& input = scene.uncertain_inputs[i];
+        fmt::print(stderr, "input {} of {}, {}\n", i + 1, scene.uncertain_inputs.size(),
+                   text_of(input));
+        const io::SceneFile shifted = io::read_scene_file(options.scene, input.path);
+        ProgressLine line;
+        const optics::Result changed = optics::simulate(
+            shifted.parts, settings,
+            {.on_progress = [&](const optics::Progress& progress) { line.show(progress); },
+             .on_phase = {},
+             .interrupted = &interrupted});
+        if (changed.phases == result.phases) {
+            optics::add_input_change(result, text_of(input), changed);
+        }
+    }
+    if (result.uncertain_inputs.size() < scene.uncertain_inputs.size()) {
+        result.warnings.emplace_back(
+            fmt::format("interrupted before all inputs with an uncertainty were looked into: {} of "
+                        "{} are part of the result",
+                        result.uncertain_inputs.size(), scene.uncertain_inputs.size()));
+    }
+}
+
 }  // namespace
 
 ExitCode run(const RunOptions& options) {
@@ -91,20 +120,21 @@ ExitCode run(const RunOptions& options) {
 
     Checkpoints checkpoints(folder.state_file(),
                             {std::filesystem::absolute(options.scene).string(), scene_hash});
+    std::signal(SIGINT, interrupt);
+    std::signal(SIGTERM, interrupt);
     {
         ProgressLine line;
-        std::signal(SIGINT, interrupt);
-        std::signal(SIGTERM, interrupt);
         optics::go_on(
             scene.parts, settings, state,
             {.on_progress = [&](const optics::Progress& progress) { line.show(progress); },
              .on_phase = [&](const optics::RunState& now) { checkpoints.phase_done(now); },
              .interrupted = &interrupted});
-        std::signal(SIGINT, SIG_DFL);
-        std::signal(SIGTERM, SIG_DFL);
     }
     checkpoints.save(state);
     optics::Result result = state.result(scene.parts);
+    look_into_inputs(options, scene, state, result);
+    std::signal(SIGINT, SIG_DFL);
+    std::signal(SIGTERM, SIG_DFL);
     result.warnings.insert(result.warnings.begin(), scene.warnings.begin(), scene.warnings.end());
 
     auto files = folder.write(result, {options.scene.string(), scene_hash});

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <numbers>
@@ -124,6 +125,34 @@ Quantity parse_quantity(std::string_view text, const Dimension& dimension) {
         throw complain(fmt::format("has the unit '{}'", shortened(rest)));
     throw complain(
         fmt::format("has the unit '{}', not {}", shortened(rest), accepted_units(dimension)));
+}
+
+UncertainQuantity parse_uncertain_quantity(std::string_view text, const Dimension& dimension) {
+    for (const std::string_view sign : {"±", "+/-"}) {
+        const auto at = text.find(sign);
+        if (at == std::string_view::npos) continue;
+        const Quantity quantity = parse_quantity(text.substr(0, at), dimension);
+        const std::string_view stated = trimmed(text.substr(at + sign.size()));
+        const bool in_percent = stated.ends_with('%');
+        const auto has_percent = [](const Unit& unit) { return unit.symbol == "%"; };
+        const bool relative =
+            in_percent && std::none_of(dimension.units.begin(), dimension.units.end(), has_percent);
+        Quantity uncertainty = parse_quantity(stated, relative ? dimension::percent : dimension);
+        if (relative) {
+            uncertainty = {uncertainty.value * std::abs(quantity.value), quantity.base};
+        }
+        if (uncertainty.value < 0.0) {
+            throw std::invalid_argument(
+                fmt::format("'{}' states a negative uncertainty", shortened(trimmed(text))));
+        }
+        if (uncertainty.base != quantity.base) {
+            throw std::invalid_argument(
+                fmt::format("'{}' has an uncertainty in {}; expected {} or %",
+                            shortened(trimmed(text)), uncertainty.base, quantity.base));
+        }
+        return {quantity, uncertainty.value};
+    }
+    return {parse_quantity(text, dimension)};
 }
 
 double parse_value(std::string_view text, const Dimension& dimension) {

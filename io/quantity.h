@@ -1,6 +1,7 @@
 // Numbers with units, as a user writes them: "1200 lm", "10 mm", "2 %".
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -48,7 +49,18 @@ extern const Dimension percent;        ///< percent, the sign required -> 1
 /// that names what was found and what would be accepted.
 Quantity parse_quantity(std::string_view text, const Dimension& dimension);
 
-/// The same where the dimension has one base unit.
+/// A value that may have been stated with its uncertainty.
+struct UncertainQuantity {
+    Quantity quantity;
+    std::optional<double> expanded_uncertainty{};  ///< in the base unit, not negative
+};
+
+/// The same for "1200 lm ± 60 lm" or "1200 lm ± 5 %", where +/- stands for ± as well. The
+/// uncertainty has a unit of the dimension; a percentage is one of the value, unless the dimension
+/// is one of fractions: "70 % ± 2 %" is 0.70 ± 0.02.
+UncertainQuantity parse_uncertain_quantity(std::string_view text, const Dimension& dimension);
+
+/// A quantity where the dimension has one base unit.
 double parse_value(std::string_view text, const Dimension& dimension);
 
 }  // namespace lucerna::io

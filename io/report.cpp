@@ -49,6 +49,22 @@ void add_uncertain(Json& json, const Uncertain& result, const std::string& name,
     json["coverage"] = report_coverage;
 }
 
+// What uncertain inputs add to a number, if there are any.
+void add_inputs(Json& json, const optics::InputChanges& inputs,
+                const std::vector<std::string>& names, double expanded_uncertainty,
+                const std::string& name, Numbers& number) {
+    if (names.empty()) return;
+    const double of_inputs = inputs.expanded_uncertainty();
+    json["input_uncertainty"] = number(of_inputs, name + " input_uncertainty");
+    json["combined_uncertainty"] =
+        number(std::hypot(expanded_uncertainty, of_inputs), name + " combined_uncertainty");
+    json["input_changes"] = Json::array();
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        json["input_changes"].push_back(
+            {{"input", names[i]}, {"change", number(inputs.changes[i], name + " change")}});
+    }
+}
+
 Json image_json(const optics::Image& image, Numbers& number) {
     const Uncertain mean = image.mean.corrected();
     return {{"name", image.name},
@@ -63,10 +79,13 @@ Json image_json(const optics::Image& image, Numbers& number) {
                     image.name + " mean_luminance_expanded_uncertainty")}};
 }
 
-Json quantity_json(const optics::Quantity& quantity, Numbers& number) {
+Json quantity_json(const optics::Quantity& quantity, const std::vector<std::string>& inputs,
+                   Numbers& number) {
     const Estimate& estimate = quantity.estimate;
     Json json = {{"name", quantity.name}, {"quantity", quantity.quantity}, {"unit", quantity.unit}};
     add_uncertain(json, quantity.result(), quantity.name, number);
+    add_inputs(json, quantity.inputs, inputs,
+               quantity.result().expanded_uncertainty(report_coverage), quantity.name, number);
     json["bias"] = number(estimate.bias(), quantity.name + " bias");
     json["bias_standard_error"] =
         number(estimate.bias_standard_error(), quantity.name + " bias_standard_error");
@@ -91,9 +110,12 @@ Json quantity_json(const optics::Quantity& quantity, Numbers& number) {
     return json;
 }
 
-Json derived_json(const optics::DerivedQuantity& derived, Numbers& number) {
+Json derived_json(const optics::DerivedQuantity& derived, const std::vector<std::string>& inputs,
+                  Numbers& number) {
     Json json = {{"name", derived.name}, {"quantity", derived.quantity}, {"unit", derived.unit}};
     add_uncertain(json, derived.result, derived.name, number);
+    add_inputs(json, derived.inputs, inputs, derived.result.expanded_uncertainty(report_coverage),
+               derived.name, number);
     return json;
 }
 
@@ -151,6 +173,7 @@ std::string report_json(const optics::Result& result, const ReportSource& source
                  {"wall_s", number(result.wall_s, "wall_s")},
                  {"stopped_by", result.stopped_by},
                  {"accuracy_reached", result.accuracy_reached}};
+    json["uncertain_inputs"] = result.uncertain_inputs;
     // The image that decides when to stop is the worst of all cameras.
     const auto worst =
         std::max_element(result.images.begin(), result.images.end(),
@@ -160,11 +183,12 @@ std::string report_json(const optics::Result& result, const ReportSource& source
     for (const auto& image : result.images) json["images"].push_back(image_json(image, number));
     json["quantities"] = Json::array();
     for (const auto& quantity : result.quantities) {
-        json["quantities"].push_back(quantity_json(quantity, number));
+        json["quantities"].push_back(quantity_json(quantity, result.uncertain_inputs, number));
     }
     json["derived_quantities"] = Json::array();
     for (const auto& derived : result.derived) {
-        json["derived_quantities"].push_back(derived_json(derived, number));
+        json["derived_quantities"].push_back(
+            derived_json(derived, result.uncertain_inputs, number));
     }
     json["flux_balance_lm"] = flux_json(result.flux_balance_lm, number);
     json["rays"] = rays_json(result.rays, number);

@@ -54,7 +54,7 @@ void check_whole(const SceneFile& scene, const YamlCursor& root) {
 
 }  // namespace
 
-SceneFile read_scene_file(const std::filesystem::path& path) {
+SceneFile read_scene_file(const std::filesystem::path& path, const std::string& shifted) {
     SceneFile scene;
     Diagnostics diagnostics;
     const std::string file = path.string();
@@ -62,7 +62,8 @@ SceneFile read_scene_file(const std::filesystem::path& path) {
     scene.files.push_back(path);
     SceneContext context{scene, diagnostics, path.parent_path(), {}, {}};
 
-    const YamlCursor root(*document, file, diagnostics);
+    UncertainInputs uncertain(shifted);
+    const YamlCursor root(*document, file, diagnostics, &uncertain);
     YamlMap map(root);
     read_version(map);
     if (const YamlCursor up = map.optional("up")) context.up = read_direction(up);
@@ -71,10 +72,11 @@ SceneFile read_scene_file(const std::filesystem::path& path) {
     read_lights(context, objects, map.optional("lights"));
     read_cameras(context, map.optional("cameras"));
     read_sensors(context, objects, map.optional("sensors"));
-    scene.settings = read_settings(map.optional("simulation"), scene.parts);
+    scene.settings = read_settings(map.optional("simulation").exact(), scene.parts);
     map.no_other_keys();
     if (diagnostics.empty()) check_whole(scene, root);
     throw_sorted(diagnostics, file);
+    scene.uncertain_inputs = uncertain.list();
     return scene;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "io/uncertain_inputs.h"
 #include "optics/scene.h"
 #include "optics/transport/settings.h"
 
@@ -15,12 +16,14 @@ namespace lucerna::io {
 struct SceneFile {
     optics::SceneParts parts;
     optics::Settings settings;
+    std::vector<UncertainInput> uncertain_inputs;
     std::vector<std::string> warnings;
     std::vector<std::filesystem::path> files;  ///< all files read, the scene first
 };
 
 /// Throws InputError with everything that is wrong with the file.
-SceneFile read_scene_file(const std::filesystem::path& path);
+/// @param shifted  path of an uncertain input whose value is shifted by its uncertainty.
+SceneFile read_scene_file(const std::filesystem::path& path, const std::string& shifted = "");
 
 /// What was read, for people: objects, triangles, lights with their flux, media, observers,
 /// warnings.

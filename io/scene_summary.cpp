@@ -82,6 +82,9 @@ std::string scene_summary(const SceneFile& scene) {
     for (const FluxReceiver& receiver : parts.receivers)
         line(
             fmt::format("  flux '{}' on '{}'", receiver.name, parts.objects[receiver.object].name));
+    if (!scene.uncertain_inputs.empty())
+        line(fmt::format("uncertain  {}", scene.uncertain_inputs.size()));
+    for (const UncertainInput& input : scene.uncertain_inputs) line("  " + text_of(input));
     line(fmt::format("warnings   {}", scene.warnings.size()));
     for (const std::string& warning : scene.warnings) line("  " + warning);
     return text;

@@ -63,6 +63,43 @@ std::string quantities_text(const optics::Result& result) {
     return text;
 }
 
+// What uncertain inputs do to each quantity: the table of an error budget.
+std::string inputs_text(const optics::Result& result) {
+    if (result.uncertain_inputs.empty()) return "";
+    std::string text = fmt::format(
+        "\nUncertain inputs, and the change of a quantity when one of them is shifted by its "
+        "uncertainty ({:.0f} %)\n",
+        100.0 * report_coverage);
+    std::vector<std::string> heads{""};
+    for (std::size_t i = 0; i < result.uncertain_inputs.size(); ++i) {
+        text += fmt::format("  ({}) {}\n", i + 1, result.uncertain_inputs[i]);
+        heads.push_back(fmt::format("({})", i + 1));
+    }
+    heads.insert(heads.end(), {"inputs", "simulation", "combined"});
+    std::vector<std::vector<std::string>> rows{heads};
+    const auto add = [&](const std::string& name, const optics::InputChanges& inputs,
+                         const Uncertain& value) {
+        const auto percent = [&](double part) {
+            return value.value == 0.0 ? "-" : fmt::format("{:.2g} %", 100.0 * part / value.value);
+        };
+        std::vector<std::string> row{name};
+        for (const double change : inputs.changes) row.push_back(percent(change));
+        const double of_inputs = inputs.expanded_uncertainty();
+        const double of_simulation = value.expanded_uncertainty(report_coverage);
+        row.push_back(percent(of_inputs));
+        row.push_back(percent(of_simulation));
+        row.push_back(percent(std::hypot(of_inputs, of_simulation)));
+        rows.push_back(row);
+    };
+    constexpr std::size_t shown = 40;
+    for (std::size_t i = 0; i < std::min(shown, result.quantities.size()); ++i) {
+        const optics::Quantity& quantity = result.quantities[i];
+        add(quantity.name, quantity.inputs, quantity.result());
+    }
+    for (const auto& derived : result.derived) add(derived.name, derived.inputs, derived.result);
+    return text + text_table(rows);
+}
+
 std::string flux_text(const optics::FluxBalance& flux) {
     if (!(flux.emitted > 0.0)) return "";
     std::vector<std::vector<std::string>> rows;
@@ -102,7 +139,7 @@ std::string work_text(const optics::Result& result) {
 }  // namespace
 
 std::string summary(const optics::Result& result, const std::vector<WrittenFile>& files) {
-    std::string text = images_text(result) + quantities_text(result) +
+    std::string text = images_text(result) + quantities_text(result) + inputs_text(result) +
                        flux_text(result.flux_balance_lm) + work_text(result);
     for (const auto& warning : result.warnings) text += "Warning: " + warning + "\n";
     if (!files.empty()) {

@@ -81,8 +81,14 @@ std::vector<YamlCursor> YamlCursor::list() const {
 }
 
 YamlCursor YamlCursor::child(const YamlNode& node, const std::string& step) const {
-    YamlCursor cursor(node, *file_, *diagnostics_);
+    YamlCursor cursor(node, *file_, *diagnostics_, uncertain_);
     cursor.path_ = path_ + step;
+    return cursor;
+}
+
+YamlCursor YamlCursor::exact() const {
+    YamlCursor cursor = *this;
+    cursor.uncertain_ = nullptr;
     return cursor;
 }
 
@@ -171,8 +177,13 @@ std::optional<Quantity> read_quantity(const YamlCursor& cursor, const Dimension&
     }
     const auto text = cursor.word();
     if (!text) return {};
+    const auto accepted = [&](double value) {
+        return !(accept != Accept::any && value < 0.0) &&
+               !(accept == Accept::positive && value == 0.0) &&
+               !(accept == Accept::up_to_one && value > 1.0);
+    };
     try {
-        const Quantity quantity = parse_quantity(*text, dimension);
+        const auto [quantity, uncertainty] = parse_uncertain_quantity(*text, dimension);
         const double value = quantity.value;
         if (accept != Accept::any && value < 0.0)
             cursor.complain(fmt::format("'{}' is negative", *text));
@@ -180,8 +191,20 @@ std::optional<Quantity> read_quantity(const YamlCursor& cursor, const Dimension&
             cursor.complain(fmt::format("'{}' must be more than zero", *text));
         else if (accept == Accept::up_to_one && value > 1.0)
             cursor.complain(fmt::format("'{}' is more than 1 (100 %)", *text));
-        else
+        else if (!uncertainty)
             return quantity;
+        else if (!cursor.uncertain())
+            cursor.complain(
+                fmt::format("'{}' states an uncertainty, which means nothing here", *text));
+        else if (!accepted(value + *uncertainty) && !accepted(value - *uncertainty))
+            cursor.complain(fmt::format(
+                "'{}' has an uncertainty that leads to what is not accepted, up and down", *text));
+        else
+            return Quantity{cursor.uncertain()->add(
+                                {cursor.path(), cursor.where().line, cursor.where().column, value,
+                                 *uncertainty, std::string(quantity.base),
+                                 accepted(value + *uncertainty) ? *uncertainty : -*uncertainty}),
+                            quantity.base};
     } catch (const std::invalid_argument& error) {
         cursor.complain(error.what());
     }

@@ -15,6 +15,7 @@
 #include "core/diagnostics.h"
 #include "core/vector.h"
 #include "io/quantity.h"
+#include "io/uncertain_inputs.h"
 #include "io/yaml_tree.h"
 
 namespace lucerna::io {
@@ -24,8 +25,11 @@ public:
     /// An absent place.
     YamlCursor() = default;
     /// The root of a document; `file` and `diagnostics` must outlive all its cursors.
-    YamlCursor(const YamlNode& root, const std::string& file, Diagnostics& diagnostics)
-        : node_(&root), file_(&file), diagnostics_(&diagnostics) {}
+    /// @param uncertain  takes down the numbers that are stated with an uncertainty, and outlives
+    ///     the cursors, too; without it such numbers are errors.
+    YamlCursor(const YamlNode& root, const std::string& file, Diagnostics& diagnostics,
+               UncertainInputs* uncertain = nullptr)
+        : node_(&root), file_(&file), diagnostics_(&diagnostics), uncertain_(uncertain) {}
 
     explicit operator bool() const { return node_ != nullptr; }
     bool is_scalar() const { return node_ && node_->kind == YamlNode::Kind::scalar; }
@@ -46,6 +50,10 @@ public:
     /// Entries of a sequence.
     std::vector<YamlCursor> list() const;
 
+    /// The same place, where numbers with an uncertainty are errors.
+    YamlCursor exact() const;
+    UncertainInputs* uncertain() const { return uncertain_; }
+
 private:
     friend class YamlMap;
     YamlCursor child(const YamlNode& node, const std::string& step) const;
@@ -53,6 +61,7 @@ private:
     const YamlNode* node_ = nullptr;
     const std::string* file_ = nullptr;
     Diagnostics* diagnostics_ = nullptr;
+    UncertainInputs* uncertain_ = nullptr;
     std::string path_;
 };
 
@@ -99,7 +108,8 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
 enum class Accept { any, not_negative, positive, up_to_one };
 
 /// A number with its unit, in the dimension's base unit; NaN at an absent place or after a
-/// complaint.
+/// complaint. Where an uncertainty is stated, it is noted, and accepted if one end of the interval
+/// is.
 double read_value(const YamlCursor& cursor, const Dimension& dimension,
                   Accept accept = Accept::any);
 /// The same for dimensions of several base units; nothing after a complaint.

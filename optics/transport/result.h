@@ -43,6 +43,17 @@ struct Colour {
     std::optional<Uncertain> cct_k, duv;  ///< correlated colour temperature, where it is defined
 };
 
+/// How a value follows uncertain inputs.
+struct InputChanges {
+    /// Change of the value when one input is shifted by its expanded uncertainty, for each of
+    /// Result::uncertain_inputs.
+    std::vector<double> changes;
+
+    /// Half width of the interval for which inputs are responsible: independent inputs, to first
+    /// order (JCGM 100:2008, 5.1.2).
+    double expanded_uncertainty() const;
+};
+
 /// One reported number.
 struct Quantity {
     std::string name;      ///< of the sensor or receiver, with its point: "desk plane[3,1]"
@@ -50,6 +61,7 @@ struct Quantity {
     std::string unit;      ///< "lx", "cd/m2", "lm"
     Estimate estimate;
     std::optional<Colour> colour{};  ///< where it has a meaning
+    InputChanges inputs{};
 
     Uncertain result() const { return estimate.corrected(); }
 };
@@ -60,6 +72,7 @@ struct DerivedQuantity {
     std::string quantity;  ///< term of CIE S 017 or of EN 12464-1
     std::string unit;      ///< "1" for ratios
     Uncertain result;
+    InputChanges inputs{};
 };
 
 /// Where the light of the secondary forward rays went [lm]; closes to the sum of emitted.
@@ -106,6 +119,7 @@ struct Result {
     std::vector<Image> images;
     std::vector<Quantity> quantities;
     std::vector<DerivedQuantity> derived;
+    std::vector<std::string> uncertain_inputs;  ///< as stated, of those that were looked into
     FluxBalance flux_balance_lm;
     RayCounts rays;
     std::uint64_t forward_map_bytes = 0, backward_map_bytes = 0, image_bytes = 0;  ///< largest seen
@@ -117,5 +131,12 @@ struct Result {
     bool accuracy_reached = true;
     std::vector<std::string> warnings;
 };
+
+/// Notes what a shift of one more input by its uncertainty has changed.
+/// @param input    the input as stated: "materials.wall.reflectance: 0.7 ± 0.02"
+/// @param shifted  of the same scene but for that, by the same seed and as many phases, so that
+/// much
+///     of the noise of both is the same.
+void add_input_change(Result& result, const std::string& input, const Result& shifted);
 
 }  // namespace lucerna::optics

@@ -70,3 +70,27 @@ TEST_CASE("What is not a finite number is refused", "[unit]") {
     CHECK(complaint("0x10 mm", dimension::length).find("has the unit") != std::string::npos);
     CHECK(complaint(std::string(100000, '7') + " mm", dimension::length).size() < 200);
 }
+
+TEST_CASE("A value may be stated with its uncertainty", "[unit]") {
+    const auto check = [](const char* text, const Dimension& dimension, double value,
+                          double uncertainty) {
+        const UncertainQuantity read = parse_uncertain_quantity(text, dimension);
+        INFO(text);
+        CHECK_THAT(read.quantity.value, WithinRel(value, 1e-12));
+        REQUIRE(read.expanded_uncertainty);
+        CHECK_THAT(*read.expanded_uncertainty, WithinRel(uncertainty, 1e-12));
+    };
+    check("0.7 ± 0.02", dimension::fraction, 0.7, 0.02);
+    check("70 % ± 2 %", dimension::fraction, 0.7, 0.02);  // of a fraction: points
+    check("0.7 +/- 2 %", dimension::fraction, 0.7, 0.02);
+    check("1.2 klm ± 60 lm", dimension::luminous_flux, 1200.0, 60.0);
+    check("1200 lm±5%", dimension::luminous_flux, 1200.0, 60.0);  // else of the value
+    check("-4 mm ± 50 %", dimension::length, -4e-3, 2e-3);
+    CHECK_FALSE(parse_uncertain_quantity("0.7", dimension::fraction).expanded_uncertainty);
+    for (const char* wrong : {"0.7 ±", "± 0.1", "0.7 ± -0.1", "0.7 ± 1 lm", "0.7 ± 0.1 ± 0.1"}) {
+        INFO(wrong);
+        CHECK_THROWS_AS(parse_uncertain_quantity(wrong, dimension::fraction),
+                        std::invalid_argument);
+    }
+    CHECK_THROWS_AS(parse_uncertain_quantity("5 lm ± 1 W", dimension::flux), std::invalid_argument);
+}

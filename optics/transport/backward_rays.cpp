@@ -14,6 +14,9 @@ constexpr std::size_t sensor_rays_per_phase = 20000;
 // pixel, and as few as the time and memory of a phase of a large image ask for.
 constexpr std::size_t image_rays_per_phase = 1 << 19;
 constexpr std::size_t gathers_of_image = 1 << 16;
+// In images with so many pixels that each gathers once for its even number of rays; pixels with
+// more rays gather as often for each of them.
+constexpr std::uint32_t rays_that_share_a_gather = 8;
 constexpr std::size_t pilot_rays_of_image = 1 << 18;
 // A pixel gets at most this many times the rays of the average one.
 constexpr std::uint32_t most_times_even = 32;
@@ -109,11 +112,13 @@ BackwardRays::BackwardRays(const SceneParts& parts, const Readings& readings,
             const std::uint32_t rays = rays_of_pixel(bins.count, settings);
             const auto gathers = static_cast<std::uint32_t>(
                 std::clamp<std::size_t>(gathers_of_image / bins.count, 1, rays));
-            observers_.push_back({rays, rays / gathers, rays, 0, {}});
+            const std::uint32_t per_gather = rays / gathers;
+            const std::uint32_t shared = gathers > 1 ? per_gather : rays_that_share_a_gather;
+            observers_.push_back({rays, per_gather, shared, rays, 0, {}});
         } else {
             const auto rays = static_cast<std::uint32_t>(
                 std::clamp<std::size_t>(sensor_rays_per_phase / bins.count, 16, 4096));
-            observers_.push_back({rays, 1, rays, 0, {}});
+            observers_.push_back({rays, 1, 1, rays, 0, {}});
         }
     }
     number(readings);
@@ -124,7 +129,7 @@ BackwardRays BackwardRays::of_pilot(const SceneParts& parts, const Readings& rea
     for (const ObserverBins& bins : readings.observers()) {
         const auto rays = static_cast<std::uint32_t>(
             std::bit_floor(std::clamp<std::size_t>(pilot_rays_of_image / bins.count, 1, 4)));
-        pilot.observers_.push_back({is_camera(parts, bins) ? rays : 0, 1, rays, 0, {}});
+        pilot.observers_.push_back({is_camera(parts, bins) ? rays : 0, 1, 1, rays, 0, {}});
     }
     pilot.number(readings);
     return pilot;

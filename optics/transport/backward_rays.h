@@ -48,12 +48,12 @@ public:
     BinRays of(std::size_t observer_bins, std::size_t bin) const {
         const Shares& own = observers_[observer_bins];
         const std::uint32_t count = own.log2.empty() ? own.even : 1u << own.log2[bin];
-        return {count, std::min(count, own.per_gather),
+        return {count, std::min(count, own.shared),
                 own.first_path + static_cast<std::uint32_t>(bin) * own.most};
     }
     const std::vector<BinBlock>& blocks() const { return blocks_; }
     std::uint64_t per_phase() const { return total_; }
-    /// Largest number of rays that one gathers for.
+    /// Largest number of rays that one gathers for where all pixels have as many.
     std::uint32_t per_gather() const;
     std::size_t bytes() const;
 
@@ -69,8 +69,9 @@ public:
 private:
     struct Shares {
         std::uint32_t even;
-        std::uint32_t per_gather;
-        std::uint32_t most;  // rays that any bin may have
+        std::uint32_t per_gather;  // of the even number, for which maps have their photons
+        std::uint32_t shared;      // rays of any pixel that share a gather at most
+        std::uint32_t most;        // rays that any bin may have
         std::uint32_t first_path = 0;
         std::vector<std::uint8_t> log2;  // of each bin's number; empty if it is `even` for all
     };

@@ -3,6 +3,7 @@
 // Light that has met a boundary obliquely is partly polarised, and meets the next one otherwise
 // than unpolarised light would. The truths follow s and p apart; what averaging over polarisation
 // at each boundary would give is the twin that is refuted.
+#include "optics/transport/path.h"
 #include "spectral/observer.h"
 #include "tests/support/truth_checks.h"
 #include "validation/truth/luminance_weights.h"
@@ -287,6 +288,54 @@ TEST_CASE("Glass in a furnace: light that parts by wavelength before and behind 
     const Result result = test::run(scene, Method::combined, {96, 2000, 4});
     const Estimate& mean = result.images[0].mean;
     test::check_mean(mean.value(), mean.standard_error(), luminance / (1.0 - rho), {0.35});
+}
+
+TEST_CASE("Every lane is as likely to go on alone", "[property]") {
+    SceneBuilder scene = ball_in_furnace(Ball::dispersive);
+    scene.points({centre}, Vec3::UnitZ());
+    const Stage stage(scene.parts);
+    constexpr int steps = 160, phases = 400;
+    Lanes alone = Lanes::Zero(), common = Lanes::Zero();
+    for (int i = 0; i < steps; ++i) ++alone[choose_hero((i + 0.5) / steps)];
+    CHECK((alone == static_cast<float>(steps / spectral::lane_count)).all());
+    for (std::uint32_t number = 0; number < phases; ++number) {
+        const Phase phase(stage, 1, number);
+        for (int i = 0; i < steps; ++i) ++common[choose_common_hero(phase, (i + 0.5) / steps)];
+    }
+    // A lane belongs to half of the phases, within five standard deviations of 400 throws.
+    common /= static_cast<float>(steps / spectral::lane_count * phases);
+    CHECK((common - 1.0f).abs().maxCoeff() < 5.0f / std::sqrt(static_cast<float>(phases)));
+}
+
+TEST_CASE("Glass on both sides of a wall: rays that go straight through it, each on its lane",
+          "[analytic]") {
+    // A point lamp and a pinhole in the middles of two balls of dispersive glass: no ray is bent,
+    // all part by wavelength. What a boundary reflects comes back through the middle and leaves on
+    // the other side, so that the lamp loses nothing, and the eye sees the wall with 1 / (1 + R) by
+    // 1 - R + (1 - R) R^2 + ..., the rest being darkness behind it.
+    const auto index = [](double nm) { return ball_index_at(Ball::dispersive, nm); };
+    const Vec3 lamp(-0.5, 0.0, 2.0), eye(0.5, 0.0, 2.0);
+    constexpr double flux_lm = 1000.0, reflectance = 0.5;
+    SceneBuilder scene;
+    scene.object("wall", Rectangle{{-2, -2, 0}, {4, 0, 0}, {0, 4, 0}}, scene.diffuse(reflectance));
+    const MediumId glass = dispersive(scene, index);
+    scene.solid("around the lamp", Sphere{lamp, 0.05}, glass);
+    scene.solid("around the eye", Sphere{eye, 0.05}, glass);
+    scene.light("lamp", PointLight{lamp}, flux_lm);
+    scene.camera(eye, Vec3::Zero(), Vec3::UnitY(), 0.03, 8, 8);
+    const double distance_m = lamp.norm();
+    const double illuminance =
+        flux_lm / (4.0 * pi * distance_m * distance_m) * lamp.z() / distance_m;
+    const double seen = truth::luminous_mean([&](double nm) {
+        const double r = std::pow((index(nm) - 1.0) / (index(nm) + 1.0), 2);
+        return std::pow(index(nm), 2) / (1.0 + r);
+    });
+    const double truth = reflectance * illuminance / pi * seen;
+    const test::Replicates runs(
+        scene, Method::combined, {24, 20000, 8}, 16,
+        [](const Result& result) { return std::vector{test::mean_of_image(result.images[0])}; });
+    test::check_truth_over_runs(runs[0], truth, 0.01);
+    test::check_refutes_over_runs(runs[0], 1.15 * truth);
 }
 
 TEST_CASE("Glass in a furnace: illuminance in glass", "[analytic]") {

@@ -83,21 +83,23 @@ optics::RunState saved_state(const std::filesystem::path& path, const io::SceneF
 // seed and as many phases, so that the change is not that of the noise.
 void look_into_inputs(const RunOptions& options, const io::SceneFile& scene,
                       const optics::RunState& state, optics::Result& result) {
-    optics::Settings settings = state.settings;
-    settings.max_phases = state.phases;
+    optics::Settings limits;  // no accuracy and no time: they would end it at another phase
+    limits.max_phases = state.phases;
+    limits.threads = state.settings.threads;
     for (std::size_t i = 0; i < scene.uncertain_inputs.size() && !interrupted; ++i) {
         const io::UncertainInput& input = scene.uncertain_inputs[i];
         fmt::print(stderr, "input {} of {}, {}\n", i + 1, scene.uncertain_inputs.size(),
                    text_of(input));
         const io::SceneFile shifted = io::read_scene_file(options.scene, input.path);
         ProgressLine line;
-        const optics::Result changed = optics::simulate(
-            shifted.parts, settings,
+        optics::RunState changed(shifted.parts, state.settings);
+        optics::go_on(
+            shifted.parts, limits, changed,
             {.on_progress = [&](const optics::Progress& progress) { line.show(progress); },
              .on_phase = {},
              .interrupted = &interrupted});
-        if (changed.phases == result.phases) {
-            optics::add_input_change(result, text_of(input), changed);
+        if (changed.phases == state.phases) {
+            optics::add_input_change(result, text_of(input), changed.result(shifted.parts));
         }
     }
     if (result.uncertain_inputs.size() < scene.uncertain_inputs.size()) {

@@ -87,6 +87,15 @@ TEST_CASE("The values themselves do not depend on stated uncertainties", "[cli]"
     CHECK_FALSE(without[0].contains("input_uncertainty"));
 }
 
+TEST_CASE("Limits of the run do not end the runs with shifted inputs at other phases", "[cli]") {
+    SphereRuns runs;
+    // With less reflected light the accuracy is reached after fewer phases.
+    runs.run(sphere("0.95 ± 0.5", "1000 lm ± 5 %"), {"--accuracy", "0.5%", "--time", "2s"});
+    const json report = runs.report();
+    CHECK(report["uncertain_inputs"].size() == 2);
+    CHECK(report["warnings"].empty());
+}
+
 TEST_CASE("A number that is used twice is one input", "[cli]") {
     SphereRuns runs;
     std::string text = sphere("&rho 0.5 ± 0.02", "1000 lm");

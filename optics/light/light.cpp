@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/sampling.h"
+#include "optics/light/spherical_rectangle.h"
 
 namespace lucerna::optics {
 namespace {
@@ -94,11 +95,18 @@ std::optional<Illumination> illuminate_by_cone(const AreaLight& light, const Sph
     return result;
 }
 
+std::optional<SphericalRectangle> spherical_rectangle(const AreaLight& light, const Vec3& x) {
+    const auto* rectangle = std::get_if<Rectangle>(&light.shape);
+    return rectangle ? SphericalRectangle::seen_from(x, *rectangle) : std::nullopt;
+}
+
 std::optional<Illumination> illuminate_from(const AreaLight& light, const Vec3& x, double u1,
                                             double u2) {
     if (const auto cone = sphere_cone(light, x)) return illuminate_by_cone(light, *cone, x, u1, u2);
     SurfacePoint point = sample_area(light.shape, u1, u2);
     point.object = light.object;
+    const auto seen = spherical_rectangle(light, x);
+    if (seen) point.position = seen->sample(u1, u2);
     const Vec3 to_light = point.position - x;
     const double distance2_m2 = to_light.squaredNorm();
     if (distance2_m2 == 0.0) return std::nullopt;
@@ -110,7 +118,8 @@ std::optional<Illumination> illuminate_from(const AreaLight& light, const Vec3& 
     result.direction = direction;
     result.position = point.position;
     result.surface = point;
-    result.pdf_solid_angle = distance2_m2 / (area_m2(light.shape) * std::abs(cosine));
+    result.pdf_solid_angle = seen ? 1.0 / seen->solid_angle_sr()
+                                  : distance2_m2 / (area_m2(light.shape) * std::abs(cosine));
     result.factor = area_radiance_factor(light, -direction) / result.pdf_solid_angle;
     return result;
 }
@@ -123,6 +132,7 @@ double pdf_from(const AreaLight& light, const Vec3& x, const SurfacePoint& at) {
     if (const auto cone = sphere_cone(light, x)) {
         return cosine > 0.0 ? 1.0 / cone->solid_angle_sr : 0.0;
     }
+    if (const auto seen = spherical_rectangle(light, x)) return 1.0 / seen->solid_angle_sr();
     return distance2_m2 * std::sqrt(distance2_m2) / (area_m2(light.shape) * std::abs(cosine));
 }
 

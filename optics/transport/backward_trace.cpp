@@ -141,11 +141,14 @@ private:
                       double u2, StratifiedStream& random) {
         const Vec3& position = sensor.position;
         path_.weight *= static_cast<float>(pi);
+        LightSamples samples = LightSamples::weighed;
         at_sensor(points, sensor, [&](const GatherPoint& at) {
+            samples = samples_of_lights(at);
             readings_.add(phase_, bin_,
                           path_.weight * direct_light(phase_, at, nullptr, path_.media, path_.media,
-                                                      random, tally_.shadow_segments));
+                                                      samples, random, tally_.shadow_segments));
         });
+        if (samples == LightSamples::alone) return false;
         const Vec3 wi = sample_cosine_hemisphere(u1, u2);
         path_.ray = {position, Frame(points.normal).to_world(wi)};
         scattered_at(position, wi.z() / pi);
@@ -174,7 +177,7 @@ private:
             if (collected) {
                 store(*encounter, collection_.second_deposit);
             } else {
-                collect(*encounter, bsdf, optics, random);
+                if (collect(*encounter, bsdf, optics, random) == LightSamples::alone) return false;
             }
         }
         if (scatterings_ == 0 && importance_ >= least_importance_to_branch &&
@@ -250,19 +253,29 @@ private:
         readings_.add(phase_, bin_, path_.weight * radiance * static_cast<float>(weight));
     }
 
+    // Where a path need not go on but for emission that a scattered ray might find.
+    LightSamples samples_of_lights(const GatherPoint& at) const {
+        const bool ends = !collection_.whole_path && collection_.second_deposit == 0;
+        return ends && lights_suffice(phase_.stage, at.bsdf, at.point.position)
+                   ? LightSamples::alone
+                   : LightSamples::weighed;
+    }
+
     // Direct and gathered light at the first scattering event (at every one in path tracing).
-    void collect(const Encounter& encounter, const Bsdf& bsdf, const SurfaceOptics& optics,
-                 StratifiedStream& random) {
+    LightSamples collect(const Encounter& encounter, const Bsdf& bsdf, const SurfaceOptics& optics,
+                         StratifiedStream& random) {
         const GatherPoint at{encounter.point, encounter.frame, encounter.wo, bsdf, optics};
         const bool above = encounter.wo.z() > 0.0;
+        const LightSamples samples = samples_of_lights(at);
         readings_.add(phase_, bin_,
                       path_.weight * direct_light(phase_, at, &encounter.point,
                                                   above ? path_.media : encounter.media_beyond,
                                                   above ? encounter.media_beyond : path_.media,
-                                                  random, tally_.shadow_segments));
-        if (scatterings_ > 0) return;
+                                                  samples, random, tally_.shadow_segments));
+        if (scatterings_ > 0) return samples;
         gather_where_seen(at);
         if (collection_.first_deposit) store(encounter, collection_.first_deposit);
+        return samples;
     }
 
     // What a ray of a bin finds on a patch stands for the next ones as well that come to the patch

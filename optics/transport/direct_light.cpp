@@ -72,12 +72,21 @@ double emission_weight(const Phase& phase, std::uint32_t light, const Vec3& x,
     const double by_light =
         expected_samples(phase.stage, light) *
         illuminate_pdf_solid_angle(phase.stage.parts().lights[light].source, x, emitter);
-    return balance_weight(pdf_solid_angle, by_light);
+    return power_weight(pdf_solid_angle, by_light);
+}
+
+bool lights_suffice(const Stage& stage, const Bsdf& bsdf, const Vec3& x) {
+    constexpr double far = 3.0;  // from its centre, in radii of a sphere around the light
+    if (!std::holds_alternative<Diffuse>(bsdf)) return false;
+    if (stage.parts().lights.size() > max_light_draws) return false;
+    return std::ranges::all_of(stage.unevenly_sampled(), [&](const Sphere& light) {
+        return (x - light.centre).squaredNorm() > square(far * light.radius_m);
+    });
 }
 
 Lanes direct_light(const Phase& phase, const GatherPoint& at, const SurfacePoint* surface,
                    const MediumStack& media_above, const MediumStack& media_below,
-                   StratifiedStream& random, std::uint64_t& shadow_segments) {
+                   LightSamples samples, StratifiedStream& random, std::uint64_t& shadow_segments) {
     const Stage& stage = phase.stage;
     const std::size_t lights = stage.parts().lights.size();
     const std::size_t draws = std::min(lights, max_light_draws);
@@ -107,11 +116,12 @@ Lanes direct_light(const Phase& phase, const GatherPoint& at, const SurfacePoint
         const Lanes f = evaluate(at.bsdf, at.optics, at.wo, wi, Transport::radiance);
         if (!(f.maxCoeff() > 0.0f)) continue;
         const double expected = expected_samples(stage, chosen);
-        const double by_bsdf =
-            sampled->delta ? 0.0
-                           : pdf_solid_angle(at.bsdf, at.optics, at.wo, wi, Transport::radiance);
-        const double weight =
-            sampled->delta ? 1.0 : balance_weight(expected * sampled->pdf_solid_angle, by_bsdf);
+        double weight = 1.0;
+        if (samples == LightSamples::weighed && !sampled->delta) {
+            const double by_bsdf =
+                pdf_solid_angle(at.bsdf, at.optics, at.wo, wi, Transport::radiance);
+            weight = power_weight(expected * sampled->pdf_solid_angle, by_bsdf);
+        }
         const Lanes radiance =
             f * phase.spectra[light.flux_w_per_nm] *
             static_cast<float>(std::abs(wi.z()) * sampled->factor * weight / expected);

@@ -5,18 +5,31 @@
 
 namespace lucerna::optics {
 
-/// Weight of a sample from one of two densities, balance heuristic (Veach 1997, eq. 9.8).
-inline double balance_weight(double own, double other) {
-    return own > 0.0 ? own / (own + other) : 0.0;
+/// Weight of a sample from one of two densities, power heuristic (Veach 1997, eq. 9.13). Rays that
+/// a surface scatters find a small lamp seldom: with the balance heuristic each of them would
+/// weigh so much that they make most of the noise of direct light.
+inline double power_weight(double own, double other) {
+    return own > 0.0 ? square(own) / (square(own) + square(other)) : 0.0;
 }
 
-/// Radiance scattered toward wo from sampled points of the lights, weighed against sampling the
-/// BSDF (multi-sample balance heuristic). Unbiased together with emission_weight().
+/// How sampled points of the lights count.
+enum class LightSamples {
+    weighed,  ///< against directions that the BSDF samples; unbiased together with
+              ///< emission_weight()
+    alone     ///< unbiased by themselves
+};
+
+/// True where sampled points of the lights have little noise by themselves, so that no scattered
+/// ray need look for emission: at a diffuse surface, if each light either is sampled by solid angle
+/// or looks small from x.
+bool lights_suffice(const Stage& stage, const Bsdf& bsdf, const Vec3& x);
+
+/// Radiance scattered toward wo from sampled points of the lights.
 /// @param surface  where the shadow rays leave; nullptr for a point in free space.
 /// @param media_above, media_below  solids that hold the space on both sides of the surface.
 Lanes direct_light(const Phase& phase, const GatherPoint& at, const SurfacePoint* surface,
                    const MediumStack& media_above, const MediumStack& media_below,
-                   StratifiedStream& random, std::uint64_t& shadow_segments);
+                   LightSamples samples, StratifiedStream& random, std::uint64_t& shadow_segments);
 
 /// Weight of emission found by a direction that the BSDF chose with density `pdf_solid_angle` from
 /// x.

@@ -41,6 +41,23 @@ std::vector<double> luminous_fluxes(const SceneParts& parts) {
     return fluxes;
 }
 
+// Where illuminate() samples the area of the light, not the solid angle under which it is seen.
+std::optional<Sphere> ball_around_unevenly_sampled(const LightSource& light) {
+    const Shape* shape = nullptr;
+    if (const auto* area = std::get_if<AreaLight>(&light)) {
+        const bool outer_sphere =
+            std::holds_alternative<Sphere>(area->shape) && !area->inward && !area->both_sides;
+        if (outer_sphere || std::holds_alternative<Rectangle>(area->shape)) return std::nullopt;
+        shape = &area->shape;
+    } else if (const auto* lamp = std::get_if<Luminaire>(&light)) {
+        if (lamp->object == no_object) return std::nullopt;
+        shape = &lamp->opening.shape();
+    }
+    if (!shape) return std::nullopt;
+    const Eigen::AlignedBox3d box = bounds(*shape);
+    return Sphere{box.center(), 0.5 * box.diagonal().norm()};
+}
+
 const SceneParts& checked(const SceneParts& parts) {
     Diagnostics diagnostics;
     if (parts.lights.empty()) diagnostics.add({}, "the scene has no light; expected at least one");
@@ -79,7 +96,11 @@ Stage::Stage(const SceneParts& parts, std::optional<bool> polarisation)
       light_of_object_(parts.objects.size(), no_light),
       light_choice_(luminous_fluxes(parts)) {
     for (std::uint32_t i = 0; i < parts_.lights.size(); ++i) {
-        const ObjectId object = emitting_object(parts_.lights[i].source);
+        const LightSource& source = parts_.lights[i].source;
+        if (const auto ball = ball_around_unevenly_sampled(source)) {
+            unevenly_sampled_.push_back(*ball);
+        }
+        const ObjectId object = emitting_object(source);
         if (object == no_object) continue;
         if (light_of_object_[object] != no_light) {
             throw InputError({}, fmt::format("object \"{}\" carries two lights; expected one",

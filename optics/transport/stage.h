@@ -28,6 +28,9 @@ public:
     std::uint32_t light_of(ObjectId object) const { return light_of_object_[object]; }
     /// Chooses lights in proportion to their luminous flux.
     const DiscreteDistribution& light_choice() const { return light_choice_; }
+    /// Balls around the lights whose points are sampled by their area, with no regard to how large
+    /// they look from the point that they illuminate.
+    const std::vector<Sphere>& unevenly_sampled() const { return unevenly_sampled_; }
 
     /// Number of a patch among the patches of all objects.
     std::uint32_t patch_index(const SurfacePoint& p) const {
@@ -63,6 +66,7 @@ private:
     spectral::WavelengthSampler wavelengths_;
     std::vector<std::uint32_t> light_of_object_;
     DiscreteDistribution light_choice_;
+    std::vector<Sphere> unevenly_sampled_;
     std::vector<std::uint32_t> patch_offset_;  // one more than objects
     std::vector<double> patch_areas_m2_;
     std::vector<bool> scatters_, is_specular_;

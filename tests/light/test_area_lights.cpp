@@ -48,6 +48,12 @@ TEST_CASE("A rectangle illuminates as Lambert's polygon formula says", "[light][
         check_mean(mean.value, mean.standard_error, radiance * lambert_polygon(corners, x, n),
                    {0.03});
     }
+    // Just below it, and just beside that: by solid angle, so that not a single value is far off.
+    for (const Vec3& x : {Vec3(0.1, 0.2, 1.9999), Vec3(0.7, 0.2, 1.99)}) {
+        const Mean mean = irradiance(light, x, Vec3::UnitZ(), 400000);
+        check_mean(mean.value, mean.standard_error,
+                   radiance * lambert_polygon(corners, x, Vec3::UnitZ()), {0.02});
+    }
     CHECK_FALSE(illuminate(light, {0, 0, 3}, 0.5, 0.5));  // behind it
     const Mean above = irradiance(AreaLight{object, panel, true}, {0, 0, 4}, -n, 100000);
     const double truth = 0.5 * radiance * lambert_polygon(corners, {0, 0, 4}, -n);
@@ -130,10 +136,41 @@ TEST_CASE("The mean inverse density of a rectangle is its solid angle", "[light]
     const AreaLight light{object, Rectangle{{-0.5, -1, 1}, {0, 2, 0}, {1, 0, 0}}};
     // Solid angle from the axis: 4 asin(a b / sqrt((a^2 + d^2)(b^2 + d^2))), half sides a and b.
     const double truth = 4.0 * std::asin(0.5 / std::sqrt(1.25 * 2.0));
-    const Mean mean = mean_of(300000, [&](const auto& u) {
-        return 1.0 / illuminate(light, {0, 0, 0}, u[0], u[1])->pdf_solid_angle;
-    });
-    check_mean(mean.value, mean.standard_error, truth, {0.01});
+    const auto mean = [&](const Vec3& x) {
+        return mean_of(300000, [&](const auto& u) {
+            return 1.0 / illuminate(light, x, u[0], u[1])->pdf_solid_angle;
+        });
+    };
+    // Nearby, all directions have the same density; from far away, points are uniform over the
+    // area.
+    CHECK_THAT(mean({0, 0, 0}).value, WithinRel(truth, 1e-9));
+    const Mean far = mean({0, 0, -3});
+    CHECK(far.standard_error > 0.0);
+    const double truth_far = 4.0 * std::asin(0.5 / std::sqrt(16.25 * 17.0));
+    check_mean(far.value, far.standard_error, truth_far, {0.001});
+}
+
+TEST_CASE("A large rectangle is sampled within its edges, from anywhere", "[light]") {
+    const Rectangle rectangle{{-0.5, -1, 1}, {0, 2, 0}, {1, 0, 0}};
+    const AreaLight light{object, rectangle, true};
+    for (const Vec3& x : {Vec3(0, 0, 1 - 1e-9), Vec3(0.5, 1, 1 + 1e-6), Vec3(-0.5, 0.3, 0.9),
+                          Vec3(0.501, 0, 1 - 1e-7), Vec3(2, 3, 1.001), Vec3(0.1, -0.2, -0.2)}) {
+        INFO(x.transpose());
+        for (const double u1 : {0.0, 1e-12, 0.3, 0.5, 1.0 - 0x1p-53}) {
+            for (const double u2 : {0.0, 1e-12, 0.5, 0.7, 1.0 - 0x1p-53}) {
+                const auto sample = illuminate(light, x, u1, u2);
+                REQUIRE(sample);
+                const Vec3& p = sample->position;
+                CHECK(std::abs(p.x()) <= 0.5 + 1e-12);
+                CHECK(std::abs(p.y()) <= 1.0 + 1e-12);
+                CHECK(std::abs(p.z() - 1.0) <= 1e-12);
+                CHECK(std::isfinite(sample->factor));
+                CHECK_THAT(illuminate_pdf_solid_angle(light, x, sample->surface),
+                           WithinRel(sample->pdf_solid_angle, 1e-6));
+            }
+        }
+    }
+    CHECK_FALSE(illuminate(light, {0.1, 0.2, 1.0}, 0.5, 0.5));  // in its plane
 }
 
 TEST_CASE("Area lights emit by the cosine, each ray with weight 1", "[light][statistical]") {

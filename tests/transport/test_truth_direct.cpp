@@ -95,6 +95,44 @@ TEST_CASE("Direct light: more lights than are drawn at once", "[analytic]") {
     }
 }
 
+TEST_CASE("Direct light: a disk from nearby and from far away", "[analytic]") {
+    // Within three of its radii scattered rays look for it too; from further away, and where no ray
+    // need go on for other light, sampled points of it are all.
+    const auto method = GENERATE(Method::combined, Method::forward, Method::path);
+    const double luminance = 3000.0;
+    const double radius_m = 0.2;
+    const double rho = 0.6;
+    SceneBuilder scene;
+    scene.area_light(scene.object("lamp", Disk{{0, 0, 1}, -Vec3::UnitZ(), radius_m}, scene.black()),
+                     luminance);
+    const std::vector<Vec3> positions{{0.1, 0, 0.9}, {-0.5, 0, 0.7}, {0.6, 0, 0.6}, {0, 0.9, 0.2}};
+    scene.points(positions, Vec3::UnitZ());
+    const std::vector<Vec3> papers{{-0.2, 0.1, 0.8}, {0.7, 0.2, 0.5}};
+    for (const Vec3& at : papers) {
+        scene.object("paper", Disk{at, Vec3::UnitZ(), 0.01}, scene.diffuse(rho));
+        scene.meter(at + Vec3(0.2, 0.2, 0.1), at, 0.002);
+    }
+    const Result result = test::run(scene, method, {64, 1000});
+    INFO("method " << static_cast<int>(method));
+    // E of a disk on a parallel plane, off its axis by a (Foote 1915; factor B-13 of Howell's
+    // catalogue).
+    const auto illuminance = [&](const Vec3& x) {
+        const double a2 = x.x() * x.x() + x.y() * x.y();
+        const double sum = square(1.0 - x.z()) + a2 + square(radius_m);
+        return 0.5 * pi * luminance *
+               (1.0 - (sum - 2.0 * square(radius_m)) /
+                          std::sqrt(square(sum) - 4.0 * a2 * square(radius_m)));
+    };
+    std::vector<double> truths;
+    for (const Vec3& x : positions) truths.push_back(illuminance(x));
+    for (const Vec3& x : papers) truths.push_back(rho / pi * illuminance(x));
+    for (std::size_t i = 0; i < truths.size(); ++i) {
+        INFO(i);
+        test::check_truth(result.quantities[i].estimate, truths[i]);
+        test::check_refutes(result.quantities[i].estimate, 1.02 * truths[i]);
+    }
+}
+
 TEST_CASE("Direct light: a rectangle that is partly behind the horizon", "[analytic]") {
     const double luminance = 2000.0;
     SceneBuilder scene;

@@ -1,0 +1,80 @@
+#include "optics/light/spherical_rectangle.h"
+
+#include <algorithm>
+
+namespace lucerna::optics {
+namespace {
+
+// Of area over squared distance. A square that just looks so large has points whose contributions
+// differ by a few percent.
+constexpr double small_area_by_distance = 0.3;
+// The solid angle is known to some 1e-15 sr.
+constexpr double least_solid_angle_sr = 1e-7;
+
+// z component of the unit vector along (0, z, -a).
+double normal_z(double a, double z) {
+    return -a / std::sqrt(z * z + a * a);
+}
+
+// Of what is positive but for rounding, to divide by.
+double root(double x) {
+    return std::sqrt(std::max(x, 1e-300));
+}
+
+}  // namespace
+
+std::optional<SphericalRectangle> SphericalRectangle::seen_from(const Vec3& x,
+                                                                const Rectangle& rectangle) {
+    const Vec3 to_corner = rectangle.corner - x;
+    const double width2_m2 = rectangle.edge_u.squaredNorm();
+    const double height2_m2 = rectangle.edge_v.squaredNorm();
+    const double distance2_m2 =
+        (to_corner + 0.5 * (rectangle.edge_u + rectangle.edge_v)).squaredNorm();
+    if (width2_m2 * height2_m2 < square(small_area_by_distance * distance2_m2)) return std::nullopt;
+
+    SphericalRectangle seen;
+    seen.rectangle_ = &rectangle;
+    seen.width_m_ = std::sqrt(width2_m2);
+    seen.height_m_ = std::sqrt(height2_m2);
+    seen.x0_ = to_corner.dot(rectangle.edge_u) / seen.width_m_;
+    seen.x1_ = seen.x0_ + seen.width_m_;
+    seen.y0_ = to_corner.dot(rectangle.edge_v) / seen.height_m_;
+    seen.y1_ = seen.y0_ + seen.height_m_;
+    seen.z_ = -std::abs(to_corner.dot(rectangle.edge_u.cross(rectangle.edge_v))) /
+              (seen.width_m_ * seen.height_m_);
+    if (!(seen.z_ < 0.0)) return std::nullopt;
+    seen.normal_y0_ = normal_z(seen.y0_, seen.z_);
+    seen.normal_y1_ = -normal_z(seen.y1_, seen.z_);
+    const double normal_x0 = normal_z(seen.x0_, seen.z_);
+    const double normal_x1 = -normal_z(seen.x1_, seen.z_);
+    // Angles between neighbouring planes; their sum exceeds that of a flat rectangle by the solid
+    // angle (Girard).
+    const double g0 = std::acos(-seen.normal_y0_ * normal_x1);
+    const double g1 = std::acos(-normal_x1 * seen.normal_y1_);
+    const double g2 = std::acos(-seen.normal_y1_ * normal_x0);
+    const double g3 = std::acos(-normal_x0 * seen.normal_y0_);
+    seen.k_ = 2.0 * pi - g2 - g3;
+    seen.solid_angle_sr_ = g0 + g1 - seen.k_;
+    if (seen.solid_angle_sr_ < least_solid_angle_sr) return std::nullopt;
+    return seen;
+}
+
+Vec3 SphericalRectangle::sample(double u1, double u2) const {
+    // Which x cuts off the share u1 of the solid angle, and along the arc above it which y.
+    const double angle = u1 * solid_angle_sr_ + k_;
+    const double f = std::cos(angle) * normal_y0_ - normal_y1_;
+    const double s = std::sin(angle);
+    const double c =
+        std::copysign(1.0, f * s) * std::abs(s) / root(square(f) + square(normal_y0_ * s));
+    const double sine = root(1.0 - c * c);
+    const double x = std::clamp(-c * z_ / sine, x0_, x1_);
+    const double d = std::sqrt(x * x + z_ * z_);
+    const double h0 = y0_ / std::sqrt(d * d + y0_ * y0_);
+    const double h1 = y1_ / std::sqrt(d * d + y1_ * y1_);
+    const double h = h0 + u2 * (h1 - h0);
+    const double y = std::clamp(h * d / root(1.0 - h * h), y0_, y1_);
+    return rectangle_->corner + (x - x0_) / width_m_ * rectangle_->edge_u +
+           (y - y0_) / height_m_ * rectangle_->edge_v;
+}
+
+}  // namespace lucerna::optics

@@ -102,11 +102,11 @@ void BackwardMap::add(std::uint32_t index, const Photon& photon) {
     Lanes f = evaluate(phase_->stage.parts().bsdfs[backward.bsdf], optics, backward.wo, wi,
                        Transport::radiance);
     f *= photon.flux;
-    sums_[index].radiance += f;
+    sums_[index].full += f;
     const std::uint32_t patch = kernel_patch(phase_->stage, backward.point);
     if (in_kernel(phase_->stage, backward.point, photon.point,
                   inner_radius_factor * (*radii_)[patch])) {
-        sums_[index].radiance_inner += f;
+        sums_[index].inner += f;
     }
     touched_[index] = 1;
 }
@@ -135,15 +135,14 @@ Gathered BackwardMap::radiance(std::size_t i, std::uint64_t rays) const {
     const Stage& stage = phase_->stage;
     const double radius_m = (*radii_)[kernel_patch(stage, backward.point)];
     const KernelAreas areas = kernel_areas(stage, backward.point, radius_m);
-    const double per_ray = 1.0 / static_cast<double>(rays);
-    // L = throughput / (A N) sum f dPhi                                            METHOD eq. (3)
-    return {
-        backward.throughput * sums_[i].radiance * static_cast<float>(per_ray / areas.full),
-        backward.throughput * sums_[i].radiance_inner * static_cast<float>(per_ray / areas.inner)};
+    Gathered gathered = sums_[i].over(areas, radius_m, static_cast<double>(rays));
+    gathered.radiance *= backward.throughput;
+    gathered.bias *= backward.throughput;
+    return gathered;
 }
 
 std::size_t BackwardMap::bytes() const {
-    return photons_.size() * (sizeof(BackwardPhoton) + sizeof(Gathered) + 1) + grid_.bytes();
+    return photons_.size() * (sizeof(BackwardPhoton) + sizeof(KernelSums) + 1) + grid_.bytes();
 }
 
 }  // namespace lucerna::optics

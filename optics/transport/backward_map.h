@@ -61,7 +61,7 @@ public:
         for (std::size_t i = block_starts_[block]; i < block_starts_[block + 1]; ++i) {
             if (!touched_[i]) continue;
             const Gathered sum = radiance(i, rays);
-            read(photons_[i].bin, sum.radiance, sum.bias());
+            read(photons_[i].bin, sum.radiance, sum.bias);
         }
     }
 
@@ -88,7 +88,7 @@ private:
     const Radii* radii_ = nullptr;
     std::vector<BackwardPhoton> photons_;
     std::vector<std::size_t> block_starts_;
-    std::vector<Gathered> sums_;  // of f dPhi, at both radii
+    std::vector<KernelSums> sums_;  // of f dPhi, at both radii
     std::vector<std::uint8_t> touched_;
     std::size_t bucket_mask_ = 0;
     BucketTable<Candidate> grid_;  // each photon stands in all cells that its kernel meets

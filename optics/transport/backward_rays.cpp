@@ -18,6 +18,12 @@ constexpr std::size_t gathers_of_image = 1 << 16;
 // more rays gather as often for each of them.
 constexpr std::uint32_t rays_that_share_a_gather = 8;
 constexpr std::size_t pilot_rays_of_image = 1 << 18;
+// A kernel's bias that exceeds its own noise in the pilot phases by so many standard deviations.
+constexpr float deviations_of_luck = 3.0f;
+// What the noise of kernels is weighed by: short runs have about so many phases.
+constexpr float phases_of_a_run = 16.0f;
+constexpr int most_narrowings = 8;  // to a sixteenth
+constexpr float inner_radius_factor_f = 0.70710678f;
 // A pixel gets at most this many times the rays of the average one.
 constexpr std::uint32_t most_times_even = 32;
 
@@ -114,22 +120,23 @@ BackwardRays::BackwardRays(const SceneParts& parts, const Readings& readings,
                 std::clamp<std::size_t>(gathers_of_image / bins.count, 1, rays));
             const std::uint32_t per_gather = rays / gathers;
             const std::uint32_t shared = gathers > 1 ? per_gather : rays_that_share_a_gather;
-            observers_.push_back({rays, per_gather, shared, rays, 0, {}});
+            observers_.push_back({rays, per_gather, shared, rays, 0, {}, {}});
         } else {
             const auto rays = static_cast<std::uint32_t>(
                 std::clamp<std::size_t>(sensor_rays_per_phase / bins.count, 16, 4096));
-            observers_.push_back({rays, 1, 1, rays, 0, {}});
+            observers_.push_back({rays, 1, 1, rays, 0, {}, {}});
         }
     }
     number(readings);
 }
 
-BackwardRays BackwardRays::of_pilot(const SceneParts& parts, const Readings& readings) {
+BackwardRays BackwardRays::of_pilot(const SceneParts& parts, const Readings& readings,
+                                    std::uint32_t per_pixel) {
     BackwardRays pilot;
     for (const ObserverBins& bins : readings.observers()) {
-        const auto rays = static_cast<std::uint32_t>(
-            std::bit_floor(std::clamp<std::size_t>(pilot_rays_of_image / bins.count, 1, 4)));
-        pilot.observers_.push_back({is_camera(parts, bins) ? rays : 0, 1, 1, rays, 0, {}});
+        const auto rays = static_cast<std::uint32_t>(std::bit_floor(
+            std::clamp<std::size_t>(pilot_rays_of_image / bins.count, 1, per_pixel)));
+        pilot.observers_.push_back({is_camera(parts, bins) ? rays : 0, 1, 1, rays, 0, {}, {}});
     }
     pilot.number(readings);
     return pilot;
@@ -167,7 +174,9 @@ std::uint32_t BackwardRays::per_gather() const {
 
 std::size_t BackwardRays::bytes() const {
     std::size_t bytes = blocks_.size() * sizeof(BinBlock);
-    for (const Shares& own : observers_) bytes += own.log2.size();
+    for (const Shares& own : observers_) {
+        bytes += own.log2.size() + own.kernels.size() * sizeof(Kernel);
+    }
     return bytes;
 }
 
@@ -199,6 +208,62 @@ void BackwardRays::share_out(const SceneParts& parts, const Readings& readings,
         own.log2 = rays_log2(pixels, low, least, own.most);
     }
     number(readings);
+}
+
+void BackwardRays::narrow_kernels(const SceneParts& parts, const Readings& readings,
+                                  std::span<const std::vector<RaySums>> pilots) {
+    const auto phases = static_cast<float>(pilots.size());
+    if (phases < 2.0f) return;
+    for (std::size_t i = 0; i < observers_.size(); ++i) {
+        const ObserverBins& bins = readings.observers()[i];
+        if (!is_camera(parts, bins)) continue;
+        // The bias of a phase is noisy; its square is the mean product of those of two phases,
+        // whose noise is independent. Pixels are judged with their neighbours.
+        std::vector<float> products(bins.count), variances(bins.count);
+        for (std::size_t bin = 0; bin < bins.count; ++bin) {
+            float sum = 0.0f, squares = 0.0f;
+            for (const std::vector<RaySums>& pilot : pilots) {
+                const RaySums& rays = pilot[bins.first_bin + bin];
+                const float bias = rays.kernel_bias / rays.rays;
+                sum += bias;
+                squares += bias * bias;
+            }
+            products[bin] = (sum * sum - squares) / (phases * (phases - 1.0f));
+            variances[bin] = (squares - sum * sum / phases) / (phases - 1.0f);
+        }
+        const auto& camera = std::get<Camera>(parts.observers[bins.observer]);
+        products = summed_around(camera, products.data(), 1);
+        variances = summed_around(camera, variances.data(), 1);
+        // Standard deviation of the mean product if there is no bias.
+        const float luck = std::sqrt(2.0f / (phases * (phases - 1.0f)));
+        std::vector<float> barriers(bins.count);
+        for (const std::vector<RaySums>& pilot : pilots) {
+            for (std::size_t bin = 0; bin < bins.count; ++bin) {
+                barriers[bin] += pilot[bins.first_bin + bin].barriers;
+            }
+        }
+        barriers = summed_around(camera, barriers.data(), 1);
+        std::vector<Kernel>& kernels = observers_[i].kernels;
+        kernels.assign(bins.count, {});
+        for (std::size_t bin = 0; bin < bins.count; ++bin) {
+            kernels[bin].barriers = barriers[bin] > 0.0f;
+            if (!(products[bin] > deviations_of_luck * luck * variances[bin])) continue;
+            // A radius smaller by sqrt 2 has twice the noise, and at most 0.7 times the bias, as
+            // beside a kink. The noise of a bias is twice that of the light.
+            float noise = variances[bin] / (4.0f * phases_of_a_run), bias = products[bin];
+            for (int step = 0; step < most_narrowings && noise < 0.5f * bias; ++step) {
+                noise *= 2.0f;
+                bias *= 0.5f;
+                kernels[bin].scale *= inner_radius_factor_f;
+            }
+        }
+    }
+}
+
+void BackwardRays::take_kernels(const BackwardRays& other) {
+    for (std::size_t i = 0; i < observers_.size(); ++i) {
+        observers_[i].kernels = other.observers_[i].kernels;
+    }
 }
 
 }  // namespace lucerna::optics

@@ -1,6 +1,8 @@
 // How many backward rays each bin gets in a phase.
 #pragma once
 
+#include <span>
+
 #include "optics/transport/readings.h"
 
 namespace lucerna::optics {
@@ -19,18 +21,25 @@ struct BinRays {
     /// same.
     std::uint32_t per_gather;
     std::uint32_t first_path;  ///< number of the first of them
+    /// Radii of their kernels of indirect light over those of the surface.
+    double kernel_scale;
+    bool barriers;  ///< whether their kernels are looked through for barriers
 };
 
 /// What the single rays of a bin read: the number of rays, and sums over them.
 struct RaySums {
     float rays = 0.0f, luminance = 0.0f, square = 0.0f;
-    float segments = 0.0f;  ///< of their paths, shadow rays included
+    float segments = 0.0f;     ///< of their paths, shadow rays included
+    float kernel_bias = 0.0f;  ///< of the luminance gathered from the map of indirect light
+    float barriers = 0.0f;     ///< number of kernels that barriers cut
 
     RaySums& operator+=(const RaySums& other) {
         rays += other.rays;
         luminance += other.luminance;
         square += other.square;
         segments += other.segments;
+        kernel_bias += other.kernel_bias;
+        barriers += other.barriers;
         return *this;
     }
 };
@@ -42,14 +51,18 @@ public:
     /// The same for all bins of an observer.
     BackwardRays(const SceneParts& parts, const Readings& readings, const Settings& settings);
 
-    /// A few for each pixel, and none for sensors, to find out where a pixel needs more.
-    static BackwardRays of_pilot(const SceneParts& parts, const Readings& readings);
+    /// So many for each pixel, fewer in large images, and none for sensors: to find out what a
+    /// pixel needs.
+    static BackwardRays of_pilot(const SceneParts& parts, const Readings& readings,
+                                 std::uint32_t per_pixel);
 
     BinRays of(std::size_t observer_bins, std::size_t bin) const {
         const Shares& own = observers_[observer_bins];
         const std::uint32_t count = own.log2.empty() ? own.even : 1u << own.log2[bin];
         return {count, std::min(count, own.shared),
-                own.first_path + static_cast<std::uint32_t>(bin) * own.most};
+                own.first_path + static_cast<std::uint32_t>(bin) * own.most,
+                own.kernels.empty() ? 1.0 : double{own.kernels[bin].scale},
+                own.kernels.empty() || own.kernels[bin].barriers};
     }
     const std::vector<BinBlock>& blocks() const { return blocks_; }
     std::uint64_t per_phase() const { return total_; }
@@ -66,7 +79,21 @@ public:
     void share_out(const SceneParts& parts, const Readings& readings,
                    const std::vector<RaySums>& sums, bool noise_everywhere);
 
+    /// Narrows the kernels of pixels where those of the surface are shown to be biased, as beside
+    /// an edge of shadow or under the foot of another object: so far that the sum of the squares of
+    /// noise and bias becomes least. Nothing happens with less than two pilots.
+    /// @param pilots  per phase and bin, of the rays of pilot phases with as many photons as a
+    /// run's.
+    void narrow_kernels(const SceneParts& parts, const Readings& readings,
+                        std::span<const std::vector<RaySums>> pilots);
+    /// The same kernels as those of other rays of the same observers.
+    void take_kernels(const BackwardRays& other);
+
 private:
+    struct Kernel {
+        float scale = 1.0f;
+        bool barriers = false;
+    };
     struct Shares {
         std::uint32_t even;
         std::uint32_t per_gather;  // of the even number, for which maps have their photons
@@ -74,6 +101,7 @@ private:
         std::uint32_t most;        // rays that any bin may have
         std::uint32_t first_path = 0;
         std::vector<std::uint8_t> log2;  // of each bin's number; empty if it is `even` for all
+        std::vector<Kernel> kernels;     // of each bin; empty if nothing is known of them
     };
     void number(const Readings& readings);
 

@@ -53,6 +53,8 @@ public:
             specular_gather_weight_ =
                 ray < gathers ? static_cast<float>(rays.count) / static_cast<float>(gathers) : 0.0f;
             const double before = readings_.luminance(bin_);
+            kernel_bias_ = 0.0;
+            cut_kernels_ = 0;
             const std::uint64_t segments = tally_.segments + tally_.shadow_segments;
             trace(bins, bin, ray, random);
             if (sums) {
@@ -61,6 +63,8 @@ public:
                 sums->rays += 1.0f;
                 sums->luminance += luminance;
                 sums->square += luminance * luminance;
+                sums->kernel_bias += static_cast<float>(rays.count * kernel_bias_);
+                sums->barriers += static_cast<float>(cut_kernels_);
                 sums->segments +=
                     static_cast<float>(tally_.segments + tally_.shadow_segments - segments);
             }
@@ -335,19 +339,41 @@ private:
         add(gathered(at, histories), weight);
     }
 
-    Gathered gathered(const GatherPoint& at, std::uint8_t histories) const {
-        Gathered sum;
-        if (histories & mask(History::caustic)) {
-            sum += maps_.caustic.gather(phase_, maps_.caustic_radii, at);
+    Gathered gathered(const GatherPoint& at, std::uint8_t histories) {
+        const std::uint32_t patch = kernel_patch(phase_.stage, at.point);
+        const bool caustic = (histories & mask(History::caustic)) && !maps_.caustic.empty();
+        const bool indirect = (histories & mask(History::indirect)) && !maps_.indirect.empty();
+        GatherPoint narrowed = at;
+        if (indirect) {
+            narrowed.most_radius_m =
+                std::min(at.most_radius_m, rays_.kernel_scale * maps_.indirect_radii[patch]);
         }
-        if (histories & mask(History::indirect)) {
-            sum += maps_.indirect.gather(phase_, maps_.indirect_radii, at);
+        std::optional<KernelRegion> region;
+        if (rays_.barriers && (caustic || indirect)) {
+            const double radius_m =
+                std::max(caustic ? std::min(at.most_radius_m, maps_.caustic_radii[patch]) : 0.0,
+                         indirect ? narrowed.most_radius_m : 0.0);
+            const Vec3 side = at.wo.z() > 0.0 ? at.frame.normal : Vec3(-at.frame.normal);
+            region = KernelRegion::within(phase_.stage, at.point, side, radius_m);
+            if (region) ++cut_kernels_;
+        }
+        Gathered sum;
+        if (caustic) {
+            GatherPoint cut = at;
+            if (region) cut.region = &*region;
+            sum += maps_.caustic.gather(phase_, maps_.caustic_radii, cut);
+        }
+        if (indirect) {
+            if (region) narrowed.region = &*region;
+            const Gathered found = maps_.indirect.gather(phase_, maps_.indirect_radii, narrowed);
+            kernel_bias_ += phase_.luminous(path_.weight * found.bias);
+            sum += found;
         }
         return sum;
     }
 
     void add(const Gathered& gathered, const Lanes& weight) {
-        readings_.add(phase_, bin_, weight * gathered.radiance, weight * gathered.bias());
+        readings_.add(phase_, bin_, weight * gathered.radiance, weight * gathered.bias);
     }
 
     void store(const Encounter& encounter, std::uint8_t accepts) {
@@ -373,7 +399,9 @@ private:
 
     Path path_;
     std::uint32_t bin_ = 0;
-    BinRays rays_{};  // of the bin
+    BinRays rays_{};            // of the bin
+    int cut_kernels_ = 0;       // by barriers, of those of a ray
+    double kernel_bias_ = 0.0;  // of what a ray gathered from the map of indirect light
     struct Branch {
         Path path;
         double importance;

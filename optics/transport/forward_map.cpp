@@ -1,6 +1,8 @@
 #include "optics/transport/forward_map.h"
 
+#include <algorithm>
 #include <bit>
+#include <numbers>
 
 #include "optics/transport/path.h"
 
@@ -22,6 +24,20 @@ KernelAreas kernel_areas(const Stage& stage, const SurfacePoint& p, double radiu
     return {full, kernel_area_m2(shape, p, inner_radius_factor * radius_m)};
 }
 
+double bias_per_difference(const KernelAreas& areas, double radius_m) {
+    const double disc = pi * square(inner_radius_factor * radius_m);
+    const double lacks = std::clamp(1.0 - areas.inner / disc, 0.0, 0.5);
+    return 2.0 + 2.0 * std::numbers::sqrt2 * lacks;  // to 1 / (1 - 1 / sqrt 2)
+}
+
+Gathered KernelSums::over(const KernelAreas& areas, double radius_m, double rays) const {
+    if (!(areas.inner > 0.0)) return {};
+    const Lanes radiance = full * static_cast<float>(1.0 / (rays * areas.full));
+    const Lanes inside = inner * static_cast<float>(1.0 / (rays * areas.inner));
+    return {radiance,
+            static_cast<float>(bias_per_difference(areas, radius_m)) * (radiance - inside)};
+}
+
 Vec3 kernel_direction(const Frame& frame, const Photon& photon) {
     Vec3 wi = frame.to_local(-photon.direction);
     const double cosine = -photon.direction.dot(photon.point.normal);
@@ -35,7 +51,7 @@ ForwardMap::ForwardMap(const Stage& stage, const Radii& radii, const std::vector
                        std::uint64_t rays, int threads)
     : bucket_mask_(std::bit_ceil(std::max<std::size_t>(2 * photons.size(), 16)) - 1),
       photons_(photons.size()),
-      per_ray_(1.0 / static_cast<double>(rays)) {
+      rays_(static_cast<double>(rays)) {
     const std::size_t blocks = (photons.size() + photons_per_task - 1) / photons_per_task;
     grid_.build(bucket_mask_ + 1, blocks, threads, [&](std::size_t block, auto&& put) {
         const std::size_t end = std::min(photons.size(), (block + 1) * photons_per_task);
@@ -57,8 +73,8 @@ ForwardMap::ForwardMap(const Stage& stage, const Radii& radii, const std::vector
 }
 
 Gathered ForwardMap::gather(const Phase& phase, const Radii& radii, const GatherPoint& at) const {
-    Gathered sum;
-    if (photons_.empty()) return sum;
+    KernelSums sum;
+    if (photons_.empty()) return {};
     const Stage& stage = phase.stage;
     const std::uint32_t patch = kernel_patch(stage, at.point);
     const double cell_m = 2.0 * radii[patch];
@@ -91,6 +107,7 @@ Gathered ForwardMap::gather(const Phase& phase, const Radii& radii, const Gather
                     if (distance_m2 >= square_m2) continue;
                     const Photon& photon = photons_[place.photon];
                     if (!straight && !in_kernel(stage, at.point, photon.point, radius_m)) continue;
+                    if (at.region && !at.region->holds(place.position)) continue;
                     found = true;
                     const bool above = photon.direction.dot(photon.point.normal) < 0.0;
                     Lanes light =
@@ -99,21 +116,20 @@ Gathered ForwardMap::gather(const Phase& phase, const Radii& radii, const Gather
                     if (photon.on_common_lane && at.optics.hero_only) {
                         light *= weight_of_common_heroes;
                     }
-                    sum.radiance += light;
+                    sum.full += light;
                     if (distance_m2 < inner_square_m2 &&
                         (straight || in_kernel(stage, at.point, photon.point, inner_m))) {
-                        sum.radiance_inner += light;
+                        sum.inner += light;
                     }
                 }
             }
         }
     }
-    if (!found) return sum;
-    // L = 1 / (A N) sum f dPhi                                                      METHOD eq. (2)
-    const KernelAreas areas = kernel_areas(stage, at.point, radius_m);
-    sum.radiance *= static_cast<float>(per_ray_ / areas.full);
-    sum.radiance_inner *= static_cast<float>(per_ray_ / areas.inner);
-    return sum;
+    if (!found) return {};
+    const KernelAreas areas =
+        at.region ? KernelAreas{at.region->area_m2(radius_m), at.region->area_m2(inner_m)}
+                  : kernel_areas(stage, at.point, radius_m);
+    return sum.over(areas, radius_m, rays_);
 }
 
 }  // namespace lucerna::optics

@@ -6,6 +6,7 @@
 
 #include "optics/transport/cell_grid.h"
 #include "optics/transport/forward_trace.h"
+#include "optics/transport/kernel_region.h"
 #include "optics/transport/radii.h"
 
 namespace lucerna::optics {
@@ -29,9 +30,13 @@ KernelAreas kernel_areas(const Stage& stage, const SurfacePoint& p, double radiu
 /// cosine is that at the photon's own point, so that a curved surface loses no grazing light.
 Vec3 kernel_direction(const Frame& frame, const Photon& photon);
 
-/// A kernel sum at two radii from the same photons: the bias of a density estimate is c r^2, so
-/// bias(r) = 2 (L(r) - L(r / sqrt 2)) up to O(r^4)  (METHOD section 6.1).
+/// Kernels are summed at two radii from the same photons. In a whole disc the bias is c r^2, so
+/// that bias(r) = 2 (L(r) - L(r / sqrt 2)) up to O(r^4)  (METHOD section 6.1). Where half of the
+/// disc or more is cut off, the centre of what is left is off the point, and the bias is c r.
 inline constexpr double inner_radius_factor = 0.70710678118654752;
+/// Bias over the difference of both radii, between those two cases by the share that the inner disc
+/// lacks.
+double bias_per_difference(const KernelAreas& areas, double radius_m);
 
 /// Where and how photons are gathered.
 struct GatherPoint {
@@ -40,20 +45,27 @@ struct GatherPoint {
     const Vec3& wo;  ///< local direction toward the observer
     const Bsdf& bsdf;
     const SurfaceOptics& optics;
-    double most_radius_m = infinity;   ///< of the kernel
-    std::uint32_t sensor_point = ~0u;  ///< index of a point of a sensor plane, if it is one
+    double most_radius_m = infinity;       ///< of the kernel
+    std::uint32_t sensor_point = ~0u;      ///< index of a point of a sensor plane, if it is one
+    const KernelRegion* region = nullptr;  ///< that barriers leave of the kernel, if there are any
 };
 
 struct Gathered {
-    Lanes radiance = Lanes::Zero();        ///< at the full radius [W/(m2 sr nm)]
-    Lanes radiance_inner = Lanes::Zero();  ///< at the inner radius
+    Lanes radiance = Lanes::Zero();  ///< at the full radius [W/(m2 sr nm)]
+    Lanes bias = Lanes::Zero();      ///< of it, as both radii tell
 
     void operator+=(const Gathered& other) {
         radiance += other.radiance;
-        radiance_inner += other.radiance_inner;
+        bias += other.bias;
     }
-    /// Kernel bias of `radiance`, as both radii tell it.
-    Lanes bias() const { return 2.0f * (radiance - radiance_inner); }
+};
+
+/// Scattered flux in a kernel, by both radii.
+struct KernelSums {
+    Lanes full = Lanes::Zero(), inner = Lanes::Zero();
+
+    /// L = 1 / (A N) sum f dPhi                                              METHOD eq. (2), (3)
+    Gathered over(const KernelAreas& areas, double radius_m, double rays) const;
 };
 
 /// Immutable after construction. Consistent: biased by O(r^2), and by nothing else.
@@ -81,7 +93,7 @@ private:
     BucketTable<Place> grid_;  // cell size: twice the patch's radius
     std::size_t bucket_mask_ = 0;
     std::vector<Photon> photons_;  // in the order of the grid
-    double per_ray_ = 0.0;
+    double rays_ = 1.0;
 };
 
 /// The maps that are gathered at the first scattering event. Each history has a map of its own:

@@ -71,9 +71,27 @@ TEST_CASE("What two radii tell of the kernel bias makes a curved field exact", "
     const Gathered gathered =
         map.gather(phase, radii, {point, frame, wo, stage.parts().bsdfs[paint], optics});
     const auto radiance = static_cast<double>(gathered.radiance[0]);
-    const auto bias = static_cast<double>(gathered.bias()[0]);
+    const auto bias = static_cast<double>(gathered.bias[0]);
     // Cells on the rims of the kernels: about 2e-4 of each sum, and 2 % of the bias.
     CHECK_THAT(radiance, WithinRel(rho / pi * (1.0 - k * radius_m * radius_m / 2.0), 1e-3));
     CHECK_THAT(bias, WithinRel(-rho / pi * k * radius_m * radius_m / 2.0, 0.04));
     CHECK_THAT(radiance - bias, WithinRel(rho / pi, 2e-3));
+}
+
+TEST_CASE("What two radii tell of the kernel bias is exact at the edge of a slope", "[analytic]") {
+    // Half of a disc on a field E(x) = 1 + g x has the mean 1 + g 4 r / (3 pi). In a whole disc the
+    // mean is 1, whatever g.
+    const double radius_m = 0.1, g = 3.0;
+    const KernelAreas half{pi * radius_m * radius_m / 2.0, pi * radius_m * radius_m / 4.0};
+    const KernelAreas whole{2.0 * half.full, 2.0 * half.inner};
+    const auto mean = [&](double r) { return 1.0 + g * 4.0 * r / (3.0 * pi); };
+    KernelSums sums;
+    sums.full = Lanes::Constant(static_cast<float>(mean(radius_m) * half.full));
+    sums.inner =
+        Lanes::Constant(static_cast<float>(mean(inner_radius_factor * radius_m) * half.inner));
+    const Gathered gathered = sums.over(half, radius_m, 1.0);
+    CHECK_THAT(static_cast<double>(gathered.radiance[0] - gathered.bias[0]), WithinRel(1.0, 1e-5));
+    CHECK_THAT(bias_per_difference(whole, radius_m), WithinRel(2.0, 1e-12));
+    CHECK_THAT(bias_per_difference({half.full / 2.0, half.inner / 2.0}, radius_m),
+               WithinRel(2.0 + std::numbers::sqrt2, 1e-12));  // a corner
 }

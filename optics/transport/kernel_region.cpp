@@ -1,0 +1,186 @@
+#include "optics/transport/kernel_region.h"
+
+#include <algorithm>
+#include <bit>
+#include <vector>
+
+#include "optics/geometry/disc_area.h"
+
+namespace lucerna::optics {
+namespace {
+
+// Above the plane, in radii: what rises higher is a barrier.
+constexpr double height = 0.05;
+// A barrier that leans more than this has no line of its own: it is taken to stand across the ray.
+constexpr double least_steepness = 0.2;
+// Stands for infinity, in radii.
+constexpr double far = 1e4;
+
+// Corners of a patch that is a rectangle.
+std::optional<std::array<Vec3, 4>> rectangle_of(const Shape& shape, std::uint32_t patch) {
+    if (const auto* s = std::get_if<Rectangle>(&shape)) {
+        return std::array<Vec3, 4>{s->corner, s->corner + s->edge_u,
+                                   s->corner + s->edge_u + s->edge_v, s->corner + s->edge_v};
+    }
+    if (const auto* s = std::get_if<Box>(&shape)) {
+        const auto axis = static_cast<int>(patch / 2);
+        const Vec3 u = s->size_m[(axis + 1) % 3] * Vec3::Unit((axis + 1) % 3);
+        const Vec3 v = s->size_m[(axis + 2) % 3] * Vec3::Unit((axis + 2) % 3);
+        const Vec3 corner = (patch % 2 == 1 ? s->size_m[axis] : 0.0) * Vec3::Unit(axis);
+        return std::array<Vec3, 4>{s->placement * corner, s->placement * (corner + u),
+                                   s->placement * (corner + u + v), s->placement * (corner + v)};
+    }
+    return std::nullopt;
+}
+
+bool is_plane(const Shape& shape, std::uint32_t patch) {
+    if (std::holds_alternative<Cylinder>(shape)) return patch >= 1;
+    if (std::holds_alternative<Tube>(shape)) return patch >= 2;
+    return !std::holds_alternative<Sphere>(shape) && !std::holds_alternative<MeshInstance>(shape);
+}
+
+// Directions must not be the same everywhere: a number from 0 to 1 that hangs on the position
+// alone.
+double turn_of(const Vec3& position) {
+    // Mixing steps of MurmurHash3's finaliser.
+    std::uint64_t bits = 0;
+    for (int i = 0; i < 3; ++i) {
+        bits ^= std::bit_cast<std::uint64_t>(position[i]);
+        bits *= 0xFF51AFD7ED558CCDull;
+        bits ^= bits >> 33;
+    }
+    return static_cast<double>(bits >> 11) * 0x1p-53;
+}
+
+// The part of a polygon on the side of the line through a and b on which the origin lies.
+void clip(std::vector<Vec2>& polygon, const Vec2& a, const Vec2& b) {
+    const Vec2 along = b - a;
+    const auto cross = [&](const Vec2& p) {
+        return along.x() * (p.y() - a.y()) - along.y() * (p.x() - a.x());
+    };
+    const double inside = cross(Vec2::Zero()) < 0.0 ? -1.0 : 1.0;
+    std::vector<Vec2> kept;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const Vec2& p = polygon[i];
+        const Vec2& q = polygon[(i + 1) % polygon.size()];
+        const double of_p = inside * cross(p), of_q = inside * cross(q);
+        if (of_p >= 0.0) kept.push_back(p);
+        if ((of_p > 0.0 && of_q < 0.0) || (of_p < 0.0 && of_q > 0.0)) {
+            kept.push_back(p + of_p / (of_p - of_q) * (q - p));
+        }
+    }
+    polygon = std::move(kept);
+}
+
+}  // namespace
+
+KernelRegion::KernelRegion(const Vec3& centre, const Vec3& side, double radius_m)
+    : centre_(centre), radius_m_(radius_m) {
+    const Frame frame(side);
+    const double angle = 2.0 * pi / sectors * turn_of(centre);
+    x_axis_ = std::cos(angle) * frame.tangent + std::sin(angle) * frame.bitangent;
+    y_axis_ = side.cross(x_axis_);
+}
+
+Vec2 KernelRegion::local(const Vec3& position) const {
+    const Vec3 offset = position - centre_;
+    return {offset.dot(x_axis_), offset.dot(y_axis_)};
+}
+
+std::optional<KernelRegion> KernelRegion::within(const Stage& stage, const SurfacePoint& centre,
+                                                 const Vec3& side, double radius_m) {
+    if (centre.object == no_object) return std::nullopt;
+    const Shape& shape = stage.parts().objects[centre.object].shape;
+    if (!is_plane(shape, centre.patch)) return std::nullopt;
+    KernelRegion region(centre.position, side, radius_m);
+    if (const auto corners = rectangle_of(shape, centre.patch)) {
+        region.has_outline_ = true;
+        for (std::size_t i = 0; i < 4; ++i) region.outline_[i] = region.local((*corners)[i]);
+    }
+    const Vec3 origin = centre.position + height * radius_m * side;
+    bool any = false;
+    for (int i = 0; i < sectors; ++i) {
+        const double angle = 2.0 * pi / sectors * (i + 0.5);
+        const Vec2 direction(std::cos(angle), std::sin(angle));
+        const double reach_m = std::min(radius_m, region.within_outline_m(direction));
+        if (!(reach_m > 0.0)) continue;
+        const Vec3 along = direction.x() * region.x_axis_ + direction.y() * region.y_axis_;
+        const auto hit = stage.caster().intersect({origin, along}, nullptr, reach_m);
+        if (!hit) continue;
+        any = true;
+        const Vec3& n = hit->point.normal;
+        Vec2 normal(n.dot(region.x_axis_), n.dot(region.y_axis_));
+        if (normal.dot(direction) < 0.0) normal = -normal;
+        normal = normal.norm() > least_steepness ? normal.normalized() : direction;
+        region.barriers_[static_cast<std::size_t>(i)] = {normal,
+                                                         hit->distance_m * normal.dot(direction)};
+    }
+    if (!any) return std::nullopt;
+    // A barrier may reach into a sector whose middle passes it by.
+    const auto met = region.barriers_;
+    for (int i = 0; i < sectors; ++i) {
+        Barrier& own = region.barriers_[static_cast<std::size_t>(i)];
+        for (const int beside : {i + 1, i + sectors - 1}) {
+            const Barrier& other = met[static_cast<std::size_t>(beside % sectors)];
+            if (own.distance_m == infinity && other.distance_m < infinity) own = other;
+        }
+    }
+    if (!region.has_outline_ &&
+        kernel_area_m2(shape, centre, radius_m) != pi * radius_m * radius_m) {
+        return std::nullopt;
+    }
+    return region;
+}
+
+double KernelRegion::within_outline_m(const Vec2& direction) const {
+    double distance_m = infinity;
+    if (!has_outline_) return distance_m;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const Vec2 along = outline_[(i + 1) % 4] - outline_[i];
+        const Vec2 across(along.y(), -along.x());
+        const double rate = across.dot(direction), offset = across.dot(outline_[i]);
+        if (rate * offset > 0.0) distance_m = std::min(distance_m, offset / rate);
+    }
+    // What stands at the edge cuts off nothing.
+    return distance_m * (1.0 - 1e-6);
+}
+
+bool KernelRegion::holds(const Vec3& position) const {
+    const Vec2 p = local(position);
+    const double turns = std::atan2(p.y(), p.x()) / (2.0 * pi);
+    const auto sector = static_cast<int>(std::floor((turns < 0.0 ? turns + 1.0 : turns) * sectors));
+    const Barrier& barrier = barriers_[static_cast<std::size_t>(std::min(sector, sectors - 1))];
+    return p.dot(barrier.normal) < barrier.distance_m;
+}
+
+double KernelRegion::area_m2(double radius_m) const {
+    const double far_m = far * radius_m_;
+    std::vector<Vec2> polygon;
+    for (int i = 0; i < sectors; ++i) {
+        const Barrier& barrier = barriers_[static_cast<std::size_t>(i)];
+        // Where both edges of the sector meet the barrier, if they do.
+        std::array<Vec2, 2> corners;
+        std::array<bool, 2> meets{};
+        for (std::size_t edge = 0; edge < 2; ++edge) {
+            const double angle = 2.0 * pi / sectors * (i + static_cast<int>(edge));
+            const Vec2 direction(std::cos(angle), std::sin(angle));
+            const double cosine = direction.dot(barrier.normal);
+            meets[edge] = cosine * far_m > barrier.distance_m;
+            corners[edge] = (meets[edge] ? barrier.distance_m / cosine : far_m) * direction;
+        }
+        polygon.push_back(corners[0]);
+        if (meets[0] != meets[1]) {
+            // The barrier leaves the sector at infinity.
+            const Vec2 along(-barrier.normal.y(), barrier.normal.x());
+            polygon.push_back(meets[0] ? Vec2(corners[0] + far_m * along)
+                                       : Vec2(corners[1] - far_m * along));
+        }
+        polygon.push_back(corners[1]);
+    }
+    if (has_outline_) {
+        for (std::size_t i = 0; i < 4; ++i) clip(polygon, outline_[i], outline_[(i + 1) % 4]);
+    }
+    return polygon.size() < 3 ? 0.0 : std::abs(disc_polygon_area(polygon, radius_m));
+}
+
+}  // namespace lucerna::optics

@@ -69,6 +69,12 @@ double kernel_area_m2(const Shape& shape, const SurfacePoint& p, double radius_m
                       shape);
 }
 
+bool is_plane(const Shape& shape, std::uint32_t patch) {
+    if (std::holds_alternative<Cylinder>(shape)) return patch >= 1;
+    if (std::holds_alternative<Tube>(shape)) return patch >= 2;
+    return !std::holds_alternative<Sphere>(shape) && !std::holds_alternative<MeshInstance>(shape);
+}
+
 bool unrolls(const Shape& shape, std::uint32_t patch) {
     return round_side_radius_m(shape, patch).has_value();
 }

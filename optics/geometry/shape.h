@@ -80,6 +80,9 @@ SurfacePoint sample_area(const Shape& shape, double u1, double u2);
 /// it is meshed, not of the smooth one that the mesh stands for.
 double kernel_area_m2(const Shape& shape, const SurfacePoint& p, double radius_m);
 
+/// True if the patch lies in a plane by its kind; those of meshes may, but are not looked at.
+bool is_plane(const Shape& shape, std::uint32_t patch);
+
 /// True if kernels of the patch take distances along the unrolled surface; else they are straight.
 bool unrolls(const Shape& shape, std::uint32_t patch);
 

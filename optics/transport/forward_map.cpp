@@ -1,12 +1,19 @@
 #include "optics/transport/forward_map.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <numbers>
 
 #include "optics/transport/path.h"
 
 namespace lucerna::optics {
+namespace {
+
+constexpr std::uint32_t most_photons = (1u << 30) - 1;
+
+}  // namespace
+
 bool in_kernel(const Stage& stage, const SurfacePoint& p, const SurfacePoint& q, double radius_m) {
     if ((p.position - q.position).squaredNorm() >= radius_m * radius_m) return false;
     // On curved sides the distance is longer than the chord.
@@ -56,79 +63,130 @@ ForwardMap::ForwardMap(const Stage& stage, const Radii& radii, const std::vector
     grid_.build(bucket_mask_ + 1, blocks, threads, [&](std::size_t block, auto&& put) {
         const std::size_t end = std::min(photons.size(), (block + 1) * photons_per_task);
         for (std::size_t i = block * photons_per_task; i < end; ++i) {
-            const Vec3& position = photons[i].point.position;
-            const std::uint32_t patch = kernel_patch(stage, photons[i].point);
-            const CellKey cell = CellKey::at(patch, position, 2.0 * radii[patch]);
-            put(cell.hash() & bucket_mask_, {cell, position, static_cast<std::uint32_t>(i)});
+            const Photon& photon = photons[i];
+            const Vec3& position = photon.point.position;
+            const std::uint32_t patch = kernel_patch(stage, photon.point);
+            const CellKey cell = CellKey::at(patch, position, radii[patch]);
+            put(cell.hash() & bucket_mask_,
+                {position.cast<float>(), static_cast<std::uint32_t>(i) & most_photons,
+                 photon.direction.dot(photon.point.normal) < 0.0, photon.on_common_lane});
         }
     });
-    const std::span<Place> places = grid_.items();
+    const std::span<Candidate> candidates = grid_.items();
     for_each_block(blocks, threads, [&](std::size_t block) {
         const std::size_t end = std::min(photons.size(), (block + 1) * photons_per_task);
         for (std::size_t i = block * photons_per_task; i < end; ++i) {
-            photons_[i] = photons[places[i].photon];
-            places[i].photon = static_cast<std::uint32_t>(i);
+            photons_[i] = photons[candidates[i].photon];
+            candidates[i].photon = static_cast<std::uint32_t>(i) & most_photons;
         }
     });
 }
 
-Gathered ForwardMap::gather(const Phase& phase, const Radii& radii, const GatherPoint& at) const {
-    KernelSums sum;
-    if (photons_.empty()) return {};
-    const Stage& stage = phase.stage;
+// Calls use(candidate, photon, whether it lies within the inner radius).
+template <typename Use>
+void ForwardMap::for_each_in_kernel(const Stage& stage, const GatherPoint& at, double cell_m,
+                                    double radius_m, const Use& use) const {
+    const Vec3& centre = at.point.position;
     const std::uint32_t patch = kernel_patch(stage, at.point);
-    const double cell_m = 2.0 * radii[patch];
-    const double radius_m =
-        std::min({radii[patch], radii.of_point(at.sensor_point), at.most_radius_m});
-    const double inner_m = inner_radius_factor * radius_m;
-    const Vec3 reach = Vec3::Constant(radius_m);
-    const CellKey low = CellKey::at(patch, at.point.position - reach, cell_m);
-    const CellKey high = CellKey::at(patch, at.point.position + reach, cell_m);
-    const double square_m2 = square(radius_m);
-    const double inner_square_m2 = square(inner_m);
+    const bool plane = at.point.object == no_object ||
+                       is_plane(stage.parts().objects[at.point.object].shape, at.point.patch);
     // Elsewhere the distance along the surface may be longer than the straight one.
     const bool straight = at.point.object == no_object ||
                           !unrolls(stage.parts().objects[at.point.object].shape, at.point.patch);
-    // A diffuse surface scatters all light from a side alike.
-    const bool diffuse = std::holds_alternative<Diffuse>(at.bsdf);
-    const auto scattered = [&](const Vec3& wi) {
-        return evaluate(at.bsdf, at.optics, at.wo, wi, Transport::radiance);
-    };
-    const Lanes from_above = diffuse ? scattered(Vec3::UnitZ()) : Lanes::Zero();
-    const Lanes from_below = diffuse ? scattered(-Vec3::UnitZ()) : Lanes::Zero();
-    bool found = false;
+    const double inner_m = inner_radius_factor * radius_m;
+    const double square_m2 = square(radius_m), inner_square_m2 = square(inner_m);
+
+    const Vec3 reach = Vec3::Constant(radius_m);
+    const CellKey low = CellKey::at(patch, centre - reach, cell_m);
+    const CellKey high = CellKey::at(patch, centre + reach, cell_m);
+    // A plane meets the cells whose centres are no further from it than this.
+    const Vec3& normal = at.point.normal;
+    const double thickness_m = 0.5001 * cell_m * normal.lpNorm<1>() + stage.nudge_m();
+    std::array<std::size_t, 64> buckets;
+    std::size_t count = 0;
     for (std::int32_t x = low.x; x <= high.x; ++x) {
         for (std::int32_t y = low.y; y <= high.y; ++y) {
             for (std::int32_t z = low.z; z <= high.z; ++z) {
-                const CellKey cell{patch, x, y, z};
-                for (const Place& place : grid_.bucket(cell.hash() & bucket_mask_)) {
-                    if (place.cell != cell) continue;
-                    const double distance_m2 = (at.point.position - place.position).squaredNorm();
-                    if (distance_m2 >= square_m2) continue;
-                    const Photon& photon = photons_[place.photon];
-                    if (!straight && !in_kernel(stage, at.point, photon.point, radius_m)) continue;
-                    if (at.region && !at.region->holds(place.position)) continue;
-                    found = true;
-                    const bool above = photon.direction.dot(photon.point.normal) < 0.0;
-                    Lanes light =
-                        photon.flux * (diffuse ? (above ? from_above : from_below)
-                                               : scattered(kernel_direction(at.frame, photon)));
-                    if (photon.on_common_lane && at.optics.hero_only) {
-                        light *= weight_of_common_heroes;
-                    }
-                    sum.full += light;
-                    if (distance_m2 < inner_square_m2 &&
-                        (straight || in_kernel(stage, at.point, photon.point, inner_m))) {
-                        sum.inner += light;
-                    }
-                }
+                const Vec3 middle = cell_m * Vec3(x + 0.5, y + 0.5, z + 0.5);
+                if (plane && std::abs(normal.dot(middle - centre)) > thickness_m) continue;
+                const std::size_t bucket = CellKey{patch, x, y, z}.hash() & bucket_mask_;
+                const auto end = buckets.begin() + static_cast<std::ptrdiff_t>(count);
+                if (std::find(buckets.begin(), end, bucket) == end) buckets[count++] = bucket;
             }
         }
     }
+
+    // The quick test is in single precision and a little wide.
+    const Eigen::Vector3f quick_centre = centre.cast<float>();
+    const auto quick_m2 =
+        static_cast<float>(square(1.0001 * radius_m + 1e-6 * centre.cwiseAbs().maxCoeff()));
+    std::array<std::uint32_t, 64> near;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::span<const Candidate> bucket = grid_.bucket(buckets[i]);
+        for (std::size_t first = 0; first < bucket.size(); first += near.size()) {
+            // Without a branch for each: which ones are near cannot be foreseen.
+            const std::size_t end = std::min(bucket.size(), first + near.size());
+            std::size_t found = 0;
+            for (std::size_t k = first; k < end; ++k) {
+                near[found] = static_cast<std::uint32_t>(k);
+                found += (bucket[k].position - quick_centre).squaredNorm() < quick_m2 ? 1 : 0;
+            }
+            for (std::size_t k = 0; k < found; ++k) {
+                const Candidate& candidate = bucket[near[k]];
+                const Photon& photon = photons_[candidate.photon];
+                const double distance_m2 = (photon.point.position - centre).squaredNorm();
+                if (distance_m2 >= square_m2 || kernel_patch(stage, photon.point) != patch)
+                    continue;
+                if (!straight && !in_kernel(stage, at.point, photon.point, radius_m)) continue;
+                if (at.region && !at.region->holds(photon.point.position)) continue;
+                use(candidate, photon,
+                    distance_m2 < inner_square_m2 &&
+                        (straight || in_kernel(stage, at.point, photon.point, inner_m)));
+            }
+        }
+    }
+}
+
+Gathered ForwardMap::gather(const Phase& phase, const Radii& radii, const GatherPoint& at) const {
+    if (photons_.empty()) return {};
+    const Stage& stage = phase.stage;
+    const double cell_m = radii[kernel_patch(stage, at.point)];
+    const double radius_m = std::min({cell_m, radii.of_point(at.sensor_point), at.most_radius_m});
+    const auto scattered = [&](const Vec3& wi) {
+        return evaluate(at.bsdf, at.optics, at.wo, wi, Transport::radiance);
+    };
+    KernelSums sum;
+    bool found = false;
+    const auto add = [&](KernelSums& to, const Lanes& light, const Candidate& candidate,
+                         bool inner) {
+        found = true;
+        const bool halved = candidate.on_common_lane && at.optics.hero_only;
+        const Lanes part = halved ? Lanes(light * weight_of_common_heroes) : light;
+        to.full += part;
+        if (inner) to.inner += part;
+    };
+    if (std::holds_alternative<Diffuse>(at.bsdf)) {
+        // All light from a side is scattered alike.
+        KernelSums above, below;
+        for_each_in_kernel(stage, at, cell_m, radius_m,
+                           [&](const Candidate& candidate, const Photon& photon, bool inner) {
+                               add(candidate.above ? above : below, photon.flux, candidate, inner);
+                           });
+        const Lanes from_above = scattered(Vec3::UnitZ()), from_below = scattered(-Vec3::UnitZ());
+        sum.full = above.full * from_above + below.full * from_below;
+        sum.inner = above.inner * from_above + below.inner * from_below;
+    } else {
+        for_each_in_kernel(stage, at, cell_m, radius_m,
+                           [&](const Candidate& candidate, const Photon& photon, bool inner) {
+                               const Vec3 wi = kernel_direction(at.frame, photon);
+                               add(sum, photon.flux * scattered(wi), candidate, inner);
+                           });
+    }
     if (!found) return {};
-    const KernelAreas areas =
-        at.region ? KernelAreas{at.region->area_m2(radius_m), at.region->area_m2(inner_m)}
-                  : kernel_areas(stage, at.point, radius_m);
+    const KernelAreas areas = at.region
+                                  ? KernelAreas{at.region->area_m2(radius_m),
+                                                at.region->area_m2(inner_radius_factor * radius_m)}
+                                  : kernel_areas(stage, at.point, radius_m);
     return sum.over(areas, radius_m, rays_);
 }
 

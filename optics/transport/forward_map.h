@@ -84,13 +84,20 @@ public:
     std::size_t bytes() const { return photons_.size() * sizeof(Photon) + grid_.bytes(); }
 
 private:
-    // A photon as it stands in its bucket of the hashed grid.
-    struct Place {
-        CellKey cell;
-        Vec3 position;  // beside the key, as most photons of a cell are out of reach
-        std::uint32_t photon;
+    // A photon as it stands in its bucket of the hashed grid: 16 bytes, for the cache, as most
+    // photons of a cell are out of reach. Cells that share a bucket are told apart by distance and
+    // patch.
+    struct Candidate {
+        Eigen::Vector3f position;
+        std::uint32_t photon : 30;
+        std::uint32_t above : 1;           // it arrives on the side of the normal
+        std::uint32_t on_common_lane : 1;  // as Photon's
     };
-    BucketTable<Place> grid_;  // cell size: twice the patch's radius
+    template <typename Use>
+    void for_each_in_kernel(const Stage& stage, const GatherPoint& at, double cell_m,
+                            double radius_m, const Use& use) const;
+
+    BucketTable<Candidate> grid_;  // cell size: the patch's radius
     std::size_t bucket_mask_ = 0;
     std::vector<Photon> photons_;  // in the order of the grid
     double rays_ = 1.0;

@@ -33,12 +33,6 @@ std::optional<std::array<Vec3, 4>> rectangle_of(const Shape& shape, std::uint32_
     return std::nullopt;
 }
 
-bool is_plane(const Shape& shape, std::uint32_t patch) {
-    if (std::holds_alternative<Cylinder>(shape)) return patch >= 1;
-    if (std::holds_alternative<Tube>(shape)) return patch >= 2;
-    return !std::holds_alternative<Sphere>(shape) && !std::holds_alternative<MeshInstance>(shape);
-}
-
 // Directions must not be the same everywhere: a number from 0 to 1 that hangs on the position
 // alone.
 double turn_of(const Vec3& position) {

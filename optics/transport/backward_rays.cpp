@@ -18,12 +18,12 @@ constexpr std::size_t gathers_of_image = 1 << 16;
 // more rays gather as often for each of them.
 constexpr std::uint32_t rays_that_share_a_gather = 8;
 constexpr std::size_t pilot_rays_of_image = 1 << 18;
+constexpr std::size_t pilot_tiles_of_image = 1 << 16;
 // A kernel's bias that exceeds its own noise in the pilot phases by so many standard deviations.
 constexpr float deviations_of_luck = 3.0f;
 // What the noise of kernels is weighed by: short runs have about so many phases.
 constexpr float phases_of_a_run = 16.0f;
 constexpr int most_narrowings = 8;  // to a sixteenth
-constexpr float inner_radius_factor_f = 0.70710678f;
 // A pixel gets at most this many times the rays of the average one.
 constexpr std::uint32_t most_times_even = 32;
 
@@ -37,6 +37,13 @@ std::uint32_t rays_of_pixel(std::size_t pixels, const Settings& settings) {
         std::bit_floor(std::clamp<std::size_t>(image_rays_per_phase / pixels, 1, 8)));
 }
 
+// Edge of the square tiles of an image, one for a pilot ray [pixels].
+std::size_t tile_of(std::size_t pixels) {
+    std::size_t tile = 1;
+    while (tile * tile * pilot_tiles_of_image < pixels) ++tile;
+    return tile;
+}
+
 struct Pixel {
     float deviation;  // of the luminance of a ray
     float cost;       // segments of its path
@@ -44,7 +51,7 @@ struct Pixel {
 
 // Sum over the pixels around each one, up to `reach` of them to each side.
 template <typename T>
-std::vector<T> summed_around(const Camera& camera, const T* values, int reach) {
+std::vector<T> summed_around(int width, int height, const T* values, int reach) {
     const auto along = [&](const T* from, int count, int lines, int step, int line_step) {
         std::vector<T> sums(static_cast<std::size_t>(count * lines));
         for (int line = 0; line < lines; ++line) {
@@ -58,8 +65,8 @@ std::vector<T> summed_around(const Camera& camera, const T* values, int reach) {
         }
         return sums;
     };
-    const std::vector<T> rows = along(values, camera.width, camera.height, 1, camera.width);
-    return along(rows.data(), camera.height, camera.width, camera.width, 1);
+    const std::vector<T> rows = along(values, width, height, 1, width);
+    return along(rows.data(), height, width, width, 1);
 }
 
 // Of a pixel with its neighbours: edges are thinner than the few rays of a single pixel can find.
@@ -68,7 +75,7 @@ std::vector<T> summed_around(const Camera& camera, const T* values, int reach) {
 // that gains nothing, and edges are blurred: 9 % more error of a diffuse room.)
 std::vector<Pixel> pixels_of(const Camera& camera, const RaySums* sums) {
     constexpr int wide = 4;
-    const std::vector<RaySums> near = summed_around(camera, sums, 1);
+    const std::vector<RaySums> near = summed_around(camera.width, camera.height, sums, 1);
     std::vector<float> variances;
     for (const RaySums& rays : near) {
         const float mean = rays.luminance / rays.rays;
@@ -76,8 +83,10 @@ std::vector<Pixel> pixels_of(const Camera& camera, const RaySums* sums) {
     }
     if (sums->rays <= 1.0f) {
         const std::vector<float> ones(near.size(), 1.0f);
-        const std::vector<float> around = summed_around(camera, variances.data(), wide);
-        const std::vector<float> counts = summed_around(camera, ones.data(), wide);
+        const std::vector<float> around =
+            summed_around(camera.width, camera.height, variances.data(), wide);
+        const std::vector<float> counts =
+            summed_around(camera.width, camera.height, ones.data(), wide);
         for (std::size_t i = 0; i < variances.size(); ++i) {
             variances[i] = 0.5f * (variances[i] + around[i] / counts[i]);
         }
@@ -120,7 +129,7 @@ BackwardRays::BackwardRays(const SceneParts& parts, const Readings& readings,
                 std::clamp<std::size_t>(gathers_of_image / bins.count, 1, rays));
             const std::uint32_t per_gather = rays / gathers;
             const std::uint32_t shared = gathers > 1 ? per_gather : rays_that_share_a_gather;
-            observers_.push_back({rays, per_gather, shared, rays, 0, {}, {}});
+            observers_.push_back({rays, per_gather, shared, rays, 0, {}, {}, false});
         } else {
             const auto rays = static_cast<std::uint32_t>(
                 std::clamp<std::size_t>(sensor_rays_per_phase / bins.count, 16, 4096));
@@ -136,7 +145,8 @@ BackwardRays BackwardRays::of_pilot(const SceneParts& parts, const Readings& rea
     for (const ObserverBins& bins : readings.observers()) {
         const auto rays = static_cast<std::uint32_t>(std::bit_floor(
             std::clamp<std::size_t>(pilot_rays_of_image / bins.count, 1, per_pixel)));
-        pilot.observers_.push_back({is_camera(parts, bins) ? rays : 0, 1, 1, rays, 0, {}, {}});
+        const std::uint32_t count = is_camera(parts, bins) ? rays : 0;
+        pilot.observers_.push_back({count, 1, 1, rays, 0, {}, {}, false});
     }
     pilot.number(readings);
     return pilot;
@@ -210,52 +220,73 @@ void BackwardRays::share_out(const SceneParts& parts, const Readings& readings,
     number(readings);
 }
 
-void BackwardRays::narrow_kernels(const SceneParts& parts, const Readings& readings,
-                                  std::span<const std::vector<RaySums>> pilots) {
+BackwardRays BackwardRays::through_tiles(const SceneParts& parts, const Readings& readings) {
+    BackwardRays rays = of_pilot(parts, readings, 1);
+    for (std::size_t i = 0; i < rays.observers_.size(); ++i) {
+        const ObserverBins& bins = readings.observers()[i];
+        if (!is_camera(parts, bins)) continue;
+        rays.observers_[i].looks_for_barriers = true;
+        rays.observers_[i].tile = tile_of(bins.count);
+        rays.observers_[i].width =
+            static_cast<std::size_t>(std::get<Camera>(parts.observers[bins.observer]).width);
+    }
+    rays.number(readings);
+    return rays;
+}
+
+void BackwardRays::look_at_kernels(const SceneParts& parts, const Readings& readings,
+                                   std::span<const std::vector<RaySums>> pilots) {
     const auto phases = static_cast<float>(pilots.size());
-    if (phases < 2.0f) return;
     for (std::size_t i = 0; i < observers_.size(); ++i) {
         const ObserverBins& bins = readings.observers()[i];
         if (!is_camera(parts, bins)) continue;
+        const auto& camera = std::get<Camera>(parts.observers[bins.observer]);
+        const auto tile = static_cast<int>(tile_of(bins.count));
+        const int width = (camera.width + tile - 1) / tile;
+        const int height = (camera.height + tile - 1) / tile;
         // The bias of a phase is noisy; its square is the mean product of those of two phases,
-        // whose noise is independent. Pixels are judged with their neighbours.
-        std::vector<float> products(bins.count), variances(bins.count);
+        // whose noise is independent. Tiles are judged with their neighbours.
+        const auto tiles = static_cast<std::size_t>(width * height);
+        std::vector<float> products(tiles), variances(tiles), barriers(tiles);
         for (std::size_t bin = 0; bin < bins.count; ++bin) {
+            const int x = static_cast<int>(bin) % camera.width / tile;
+            const int y = static_cast<int>(bin) / camera.width / tile;
+            const auto at = static_cast<std::size_t>(y * width + x);
             float sum = 0.0f, squares = 0.0f;
             for (const std::vector<RaySums>& pilot : pilots) {
                 const RaySums& rays = pilot[bins.first_bin + bin];
-                const float bias = rays.kernel_bias / rays.rays;
-                sum += bias;
-                squares += bias * bias;
+                sum += rays.kernel_bias;
+                squares += rays.kernel_bias * rays.kernel_bias;
+                barriers[at] += rays.barriers;
             }
-            products[bin] = (sum * sum - squares) / (phases * (phases - 1.0f));
-            variances[bin] = (squares - sum * sum / phases) / (phases - 1.0f);
+            if (pilots.size() < 2) continue;
+            products[at] += (sum * sum - squares) / (phases * (phases - 1.0f));
+            variances[at] += (squares - sum * sum / phases) / (phases - 1.0f);
         }
-        const auto& camera = std::get<Camera>(parts.observers[bins.observer]);
-        products = summed_around(camera, products.data(), 1);
-        variances = summed_around(camera, variances.data(), 1);
+        products = summed_around(width, height, products.data(), 1);
+        variances = summed_around(width, height, variances.data(), 1);
+        barriers = summed_around(width, height, barriers.data(), 1);
         // Standard deviation of the mean product if there is no bias.
-        const float luck = std::sqrt(2.0f / (phases * (phases - 1.0f)));
-        std::vector<float> barriers(bins.count);
-        for (const std::vector<RaySums>& pilot : pilots) {
-            for (std::size_t bin = 0; bin < bins.count; ++bin) {
-                barriers[bin] += pilot[bins.first_bin + bin].barriers;
-            }
-        }
-        barriers = summed_around(camera, barriers.data(), 1);
-        std::vector<Kernel>& kernels = observers_[i].kernels;
-        kernels.assign(bins.count, {});
-        for (std::size_t bin = 0; bin < bins.count; ++bin) {
-            kernels[bin].barriers = barriers[bin] > 0.0f;
-            if (!(products[bin] > deviations_of_luck * luck * variances[bin])) continue;
+        const float luck = pilots.size() < 2 ? 0.0f : std::sqrt(2.0f / (phases * (phases - 1.0f)));
+        std::vector<Kernel> of_tiles(tiles);
+        for (std::size_t at = 0; at < tiles; ++at) {
+            of_tiles[at].barriers = barriers[at] > 0.0f;
+            if (!(products[at] > deviations_of_luck * luck * variances[at])) continue;
             // A radius smaller by sqrt 2 has twice the noise, and at most 0.7 times the bias, as
             // beside a kink. The noise of a bias is twice that of the light.
-            float noise = variances[bin] / (4.0f * phases_of_a_run), bias = products[bin];
+            float noise = variances[at] / (4.0f * phases_of_a_run), bias = products[at];
             for (int step = 0; step < most_narrowings && noise < 0.5f * bias; ++step) {
                 noise *= 2.0f;
                 bias *= 0.5f;
-                kernels[bin].scale *= inner_radius_factor_f;
+                of_tiles[at].scale *= static_cast<float>(inner_radius_factor);
             }
+        }
+        std::vector<Kernel>& kernels = observers_[i].kernels;
+        kernels.clear();
+        for (std::size_t bin = 0; bin < bins.count; ++bin) {
+            const int x = static_cast<int>(bin) % camera.width / tile;
+            const int y = static_cast<int>(bin) / camera.width / tile;
+            kernels.push_back(of_tiles[static_cast<std::size_t>(y * width + x)]);
         }
     }
 }

@@ -56,13 +56,16 @@ public:
     static BackwardRays of_pilot(const SceneParts& parts, const Readings& readings,
                                  std::uint32_t per_pixel);
 
+    /// One ray through each square tile of an image, a pixel or some.
+    static BackwardRays through_tiles(const SceneParts& parts, const Readings& readings);
+
     BinRays of(std::size_t observer_bins, std::size_t bin) const {
         const Shares& own = observers_[observer_bins];
-        const std::uint32_t count = own.log2.empty() ? own.even : 1u << own.log2[bin];
+        const std::uint32_t count = own.count_of(bin);
         return {count, std::min(count, own.shared),
                 own.first_path + static_cast<std::uint32_t>(bin) * own.most,
                 own.kernels.empty() ? 1.0 : double{own.kernels[bin].scale},
-                own.kernels.empty() || own.kernels[bin].barriers};
+                own.kernels.empty() ? own.looks_for_barriers : own.kernels[bin].barriers};
     }
     const std::vector<BinBlock>& blocks() const { return blocks_; }
     std::uint64_t per_phase() const { return total_; }
@@ -79,13 +82,13 @@ public:
     void share_out(const SceneParts& parts, const Readings& readings,
                    const std::vector<RaySums>& sums, bool noise_everywhere);
 
-    /// Narrows the kernels of pixels where those of the surface are shown to be biased, as beside
-    /// an edge of shadow or under the foot of another object: so far that the sum of the squares of
-    /// noise and bias becomes least. Nothing happens with less than two pilots.
-    /// @param pilots  per phase and bin, of the rays of pilot phases with as many photons as a
-    /// run's.
-    void narrow_kernels(const SceneParts& parts, const Readings& readings,
-                        std::span<const std::vector<RaySums>> pilots);
+    /// Looks for kernels that barriers cut, and narrows those of pixels where the surface's are
+    /// shown to be biased, as beside an edge of shadow: so far that the sum of the squares of noise
+    /// and bias becomes least.
+    /// @param pilots  of each of some pilot phases with as many photons as those of a run: per bin,
+    ///                what the rays of through_tiles() read. A single one shows no bias.
+    void look_at_kernels(const SceneParts& parts, const Readings& readings,
+                         std::span<const std::vector<RaySums>> pilots);
     /// The same kernels as those of other rays of the same observers.
     void take_kernels(const BackwardRays& other);
 
@@ -102,6 +105,16 @@ private:
         std::uint32_t first_path = 0;
         std::vector<std::uint8_t> log2;  // of each bin's number; empty if it is `even` for all
         std::vector<Kernel> kernels;     // of each bin; empty if nothing is known of them
+        bool looks_for_barriers = true;  // while nothing is known
+        // Of an image only the pixels in the middles of tiles have rays.
+        std::size_t tile = 1, width = 1;
+
+        std::uint32_t count_of(std::size_t bin) const {
+            if (!log2.empty()) return 1u << log2[bin];
+            if (tile == 1) return even;
+            const auto in_middle = [&](std::size_t i) { return i % tile == tile / 2; };
+            return in_middle(bin % width) && in_middle(bin / width) ? even : 0;
+        }
     };
     void number(const Readings& readings);
 

@@ -44,6 +44,7 @@ public:
         const std::uint32_t set =
             RandomStream(phase_.seed, phase_.number, RandomPurpose::strata, bin_).bits();
         rays_ = rays;
+        if (rays.count == 0) return;
         const std::uint32_t gathers = rays.count / rays.per_gather;
         seen_.clear();
         for (std::uint32_t ray = 0; ray < rays.count; ++ray) {

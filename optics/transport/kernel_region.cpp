@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <numbers>
 #include <vector>
 
 #include "optics/geometry/disc_area.h"
@@ -141,9 +142,17 @@ double KernelRegion::within_outline_m(const Vec2& direction) const {
 
 bool KernelRegion::holds(const Vec3& position) const {
     const Vec2 p = local(position);
-    const double turns = std::atan2(p.y(), p.x()) / (2.0 * pi);
-    const auto sector = static_cast<int>(std::floor((turns < 0.0 ? turns + 1.0 : turns) * sectors));
-    const Barrier& barrier = barriers_[static_cast<std::size_t>(std::min(sector, sectors - 1))];
+    // Four sectors in a quadrant.
+    static_assert(sectors == 16);
+    const bool left = p.x() < 0.0, below = p.y() < 0.0;
+    const double x = std::abs(p.x()), y = std::abs(p.y());
+    const bool turned = left != below;  // the quadrant's first axis is then that of y
+    const double first = turned ? y : x, second = turned ? x : y;
+    constexpr double tangent = std::numbers::sqrt2 - 1.0;  // of a sector's angle
+    const std::size_t in_quadrant = (second >= tangent * first ? 1 : 0) +
+                                    (second >= first ? 1 : 0) + (tangent * second >= first ? 1 : 0);
+    const std::size_t quadrant = below ? (left ? 2 : 3) : (left ? 1 : 0);
+    const Barrier& barrier = barriers_[4 * quadrant + in_quadrant];
     return p.dot(barrier.normal) < barrier.distance_m;
 }
 

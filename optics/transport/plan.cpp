@@ -16,8 +16,8 @@ constexpr double default_sensor_accuracy = 0.02;  // where none is asked for
 // What the choice of the collection for images is made from.
 constexpr std::uint32_t pilot_phases = 3;
 constexpr std::size_t pilot_blocks = 24;
-// That tell where kernels of pixels are biased.
-constexpr std::uint32_t phases_to_narrow = 4;
+// That tell where kernels of pixels are cut or biased.
+constexpr std::uint32_t phases_to_look = 3;
 constexpr std::uint32_t min_forward_rays = 20000;
 // Secondary forward rays per backward ray: their noise is averaged over all second scattering
 // events that a kernel serves, so that few are enough (the same delta with 1 and with 1/4 in
@@ -184,20 +184,26 @@ void choose_collection_of_images(const TraceContext& context, const Settings& se
     }
 }
 
-// Narrower kernels of indirect light for pixels where those of the surface are biased.
-void narrow_kernels(const TraceContext& context, const Settings& settings, Plan& plan) {
-    if (!plan.collections.cameras.first_gather) return;
+// Finds out which pixels have kernels that barriers cut or that should be narrower.
+void look_at_kernels(const TraceContext& context, const Settings& settings, Plan& plan) {
+    const auto gathers = [&](History history) {
+        return (plan.collections.cameras.first_gather & mask(history)) &&
+               plan.gathers(context.stage, context.planes, history);
+    };
+    if (!gathers(History::caustic) && !gathers(History::indirect)) return;
     const SceneParts& parts = context.stage.parts();
     Plan pilot = plan;
     pilot.caustic_rays = min_forward_rays;
-    pilot.rays = BackwardRays::of_pilot(parts, context.readings, 1);
+    pilot.rays = BackwardRays::through_tiles(parts, context.readings);
     if (pilot.rays.blocks().empty()) return;
     std::vector<std::vector<RaySums>> sums;
-    for (std::uint32_t i = 0; i < phases_to_narrow; ++i) {
+    // The bias of caustics is judged by their surfaces alone.
+    const std::uint32_t phases = gathers(History::indirect) ? phases_to_look : 1;
+    for (std::uint32_t i = 0; i < phases; ++i) {
         const Phase phase(context.stage, settings.seed, pilot_phase - pilot_phases - 4 - i);
         sums.push_back(trace_single_rays(phase, context, pilot));
     }
-    plan.rays.narrow_kernels(parts, context.readings, sums);
+    plan.rays.look_at_kernels(parts, context.readings, sums);
 }
 
 // More rays for pixels with more noise. A user who states the rays of a pixel gets just those.
@@ -236,7 +242,7 @@ Plan make_plan(const TraceContext& context, const Settings& settings) {
         std::all_of(observers.begin(), observers.end(),
                     [&](const auto& bins) { return is_camera(context, bins); });
     if (only_cameras) plan.collections.sensors = plan.collections.cameras;
-    narrow_kernels(context, settings, plan);
+    look_at_kernels(context, settings, plan);
     if (!settings.samples_per_pixel) share_out_rays(context, settings, plan);
     return plan;
 }

@@ -86,7 +86,8 @@ std::optional<KernelRegion> KernelRegion::within(const Stage& stage, const Surfa
                                                  const Vec3& side, double radius_m) {
     if (centre.object == no_object) return std::nullopt;
     const Shape& shape = stage.parts().objects[centre.object].shape;
-    if (!is_plane(shape, centre.patch)) return std::nullopt;
+    const bool mesh = std::holds_alternative<MeshInstance>(shape);
+    if (!mesh && !is_plane(shape, centre.patch)) return std::nullopt;
     KernelRegion region(centre.position, side, radius_m);
     if (const auto corners = rectangle_of(shape, centre.patch)) {
         region.has_outline_ = true;
@@ -120,8 +121,10 @@ std::optional<KernelRegion> KernelRegion::within(const Stage& stage, const Surfa
             if (own.distance_m == infinity && other.distance_m < infinity) own = other;
         }
     }
+    // A whole disc, which on a mesh shows that it is flat there.
+    const double disc_m2 = pi * radius_m * radius_m;
     if (!region.has_outline_ &&
-        kernel_area_m2(shape, centre, radius_m) != pi * radius_m * radius_m) {
+        std::abs(kernel_area_m2(shape, centre, radius_m) - disc_m2) > 1e-9 * disc_m2) {
         return std::nullopt;
     }
     return region;

@@ -17,7 +17,7 @@ namespace lucerna::optics {
 class KernelRegion {
 public:
     /// Nothing if no barrier stands within the radius, and where kernels are not cut by barriers:
-    /// on curved surfaces and meshes, and across edges of surfaces other than rectangles and boxes.
+    /// on curved surfaces, and across edges of surfaces other than rectangles and boxes.
     /// @param side  unit normal of the plane on the side of the observer.
     static std::optional<KernelRegion> within(const Stage& stage, const SurfacePoint& centre,
                                               const Vec3& side, double radius_m);

@@ -1,6 +1,7 @@
 // Kernels beside objects that stand on a surface.
 #include "optics/transport/forward_map.h"
 #include "optics/transport/path.h"
+#include "tests/support/mesh_shapes.h"
 #include "tests/support/truth_checks.h"
 
 using namespace lucerna;
@@ -86,6 +87,28 @@ TEST_CASE("A kernel ends at the foot of what stands on the surface", "[analytic]
     CHECK_FALSE(KernelRegion::within(stage, of.at({0.2, 0.2}), Vec3::UnitZ(), kernel_m));
     // Nothing stands on the back of the plate.
     CHECK_FALSE(KernelRegion::within(stage, of.at({0.49, 0.5}), -Vec3::UnitZ(), kernel_m));
+}
+
+TEST_CASE("A kernel on a flat part of a mesh ends at the foot", "[analytic]") {
+    SceneBuilder scene;
+    Placement placement = Placement::Identity();
+    placement.translate(Vec3(0.0, 0.0, -0.1));
+    scene.object("plate", MeshInstance{test::box_mesh({1.0, 1.0, 0.1}, 7), placement},
+                 scene.diffuse(0.5));
+    scene.object("block", Box{block_placement(), {0.4, 0.4, 0.3}}, scene.diffuse(0.5));
+    scene.light("light", PointLight{{0, 0, 1}}, 1.0);
+    scene.receiver(0);
+    const Stage stage(scene.parts);
+    const auto area_m2 = [&](const Vec2& p) {
+        const auto hit = stage.caster().intersect({{p.x(), p.y(), 0.2}, -Vec3::UnitZ()}, nullptr);
+        REQUIRE(hit);
+        const auto region = KernelRegion::within(stage, hit->point, Vec3::UnitZ(), kernel_m);
+        return region ? region->area_m2(kernel_m) : 0.0;
+    };
+    CHECK_THAT(area_m2(Vec2(0.5, 0.5) + 0.03 * from_block),
+               WithinAbs(large_part_m2(0.03, kernel_m), 0.005 * disc_m2));
+    CHECK(area_m2({0.2, 0.2}) == 0.0);
+    CHECK(area_m2({0.05, 0.5}) == 0.0);  // across an edge of the mesh, and no barrier
 }
 
 TEST_CASE("A kernel ends at the foot and at the edge of the surface", "[analytic]") {

@@ -49,6 +49,17 @@ Read image_mean(std::size_t i) {
     return [i](const optics::Result& result) { return reading(result.images.at(i).mean); };
 }
 
+Read pixel(std::size_t i, std::size_t index) {
+    return [i, index](const optics::Result& result) {
+        const optics::Image& image = result.images.at(i);
+        Reading r = reading(image.pixel(index));
+        const Estimate& estimate = image.luminance.at(index);
+        r.uncorrected_value = estimate.mean();
+        r.uncorrected_standard_error = estimate.mean_standard_error();
+        return r;
+    };
+}
+
 Read scaled(Read read, double factor) {
     return [read = std::move(read), factor](const optics::Result& result) {
         Reading r = read(result);

@@ -26,6 +26,8 @@ using Read = std::function<Reading(const optics::Result&)>;
 Read sensor(std::size_t i);
 /// Of the i-th of Result::images: its mean luminance.
 Read image_mean(std::size_t i);
+/// Of the i-th of Result::images: the luminance of a pixel, row by row from the top left.
+Read pixel(std::size_t i, std::size_t index);
 /// Chromaticity of CIE 1931 and correlated colour temperature [K] of the i-th of
 /// Result::quantities.
 Read chromaticity_x(std::size_t i);

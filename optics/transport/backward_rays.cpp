@@ -20,10 +20,10 @@ constexpr std::uint32_t rays_that_share_a_gather = 8;
 constexpr std::size_t pilot_rays_of_image = 1 << 18;
 constexpr std::size_t pilot_tiles_of_image = 1 << 16;
 // A kernel's bias that exceeds its own noise in the pilot phases by so many standard deviations.
-constexpr float deviations_of_luck = 3.0f;
+constexpr float deviations_of_luck = 4.0f;
 // What the noise of kernels is weighed by: short runs have about so many phases.
 constexpr float phases_of_a_run = 16.0f;
-constexpr int most_narrowings = 8;  // to a sixteenth
+constexpr int most_narrowings = 3;
 // A pixel gets at most this many times the rays of the average one.
 constexpr std::uint32_t most_times_even = 32;
 
@@ -245,7 +245,7 @@ void BackwardRays::look_at_kernels(const SceneParts& parts, const Readings& read
         const int width = (camera.width + tile - 1) / tile;
         const int height = (camera.height + tile - 1) / tile;
         // The bias of a phase is noisy; its square is the mean product of those of two phases,
-        // whose noise is independent. Tiles are judged with their neighbours.
+        // whose noise is independent.
         const auto tiles = static_cast<std::size_t>(width * height);
         std::vector<float> products(tiles), variances(tiles), barriers(tiles);
         for (std::size_t bin = 0; bin < bins.count; ++bin) {
@@ -263,7 +263,9 @@ void BackwardRays::look_at_kernels(const SceneParts& parts, const Readings& read
             products[at] += (sum * sum - squares) / (phases * (phases - 1.0f));
             variances[at] += (squares - sum * sum / phases) / (phases - 1.0f);
         }
-        products = summed_around(width, height, products.data(), 1);
+        const std::vector<float> counts =
+            summed_around(width, height, std::vector<float>(tiles, 1.0f).data(), 1);
+        const std::vector<float> products_around = summed_around(width, height, products.data(), 1);
         variances = summed_around(width, height, variances.data(), 1);
         barriers = summed_around(width, height, barriers.data(), 1);
         // Standard deviation of the mean product if there is no bias.
@@ -271,10 +273,13 @@ void BackwardRays::look_at_kernels(const SceneParts& parts, const Readings& read
         std::vector<Kernel> of_tiles(tiles);
         for (std::size_t at = 0; at < tiles; ++at) {
             of_tiles[at].barriers = barriers[at] > 0.0f;
-            if (!(products[at] > deviations_of_luck * luck * variances[at])) continue;
+            // By its own bias, which a tile shares with its neighbours where kernels are wider.
+            const float variance = variances[at] / counts[at];
+            float bias = std::min(products[at], products_around[at] / counts[at]);
+            if (!(bias > deviations_of_luck * luck * variance)) continue;
             // A radius smaller by sqrt 2 has twice the noise, and at most 0.7 times the bias, as
             // beside a kink. The noise of a bias is twice that of the light.
-            float noise = variances[at] / (4.0f * phases_of_a_run), bias = products[at];
+            float noise = variance / (4.0f * phases_of_a_run);
             for (int step = 0; step < most_narrowings && noise < 0.5f * bias; ++step) {
                 noise *= 2.0f;
                 bias *= 0.5f;

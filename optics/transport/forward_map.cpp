@@ -38,8 +38,11 @@ double bias_per_difference(const KernelAreas& areas, double radius_m) {
 }
 
 Gathered KernelSums::over(const KernelAreas& areas, double radius_m, double rays) const {
-    if (!(areas.inner > 0.0)) return {};
+    if (!(areas.full > 0.0)) return {};
     const Lanes radiance = full * static_cast<float>(1.0 / (rays * areas.full));
+    // A sliver tells nothing of the bias but noise.
+    constexpr double sliver = 0.125;
+    if (areas.inner < sliver * areas.full) return {radiance, Lanes::Zero()};
     const Lanes inside = inner * static_cast<float>(1.0 / (rays * areas.inner));
     return {radiance,
             static_cast<float>(bias_per_difference(areas, radius_m)) * (radiance - inside)};

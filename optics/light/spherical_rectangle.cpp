@@ -5,9 +5,10 @@
 namespace lucerna::optics {
 namespace {
 
-// Of area over squared distance. A square that just looks so large has points whose contributions
-// differ by a few percent.
-constexpr double small_area_by_distance = 0.3;
+// Squared diagonal over squared distance from the centre. Points of a rectangle that looks smaller
+// lie within 0.6 and 1.4 distances; by its area alone a long lamp would pass for small beside its
+// end, where the nearest points outweigh all others.
+constexpr double small_diagonal2_by_distance2 = 0.6;
 // The solid angle is known to some 1e-15 sr.
 constexpr double least_solid_angle_sr = 1e-7;
 
@@ -30,7 +31,7 @@ std::optional<SphericalRectangle> SphericalRectangle::seen_from(const Vec3& x,
     const double height2_m2 = rectangle.edge_v.squaredNorm();
     const double distance2_m2 =
         (to_corner + 0.5 * (rectangle.edge_u + rectangle.edge_v)).squaredNorm();
-    if (width2_m2 * height2_m2 < square(small_area_by_distance * distance2_m2)) return std::nullopt;
+    if (width2_m2 + height2_m2 < small_diagonal2_by_distance2 * distance2_m2) return std::nullopt;
 
     SphericalRectangle seen;
     seen.rectangle_ = &rectangle;

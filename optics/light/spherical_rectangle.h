@@ -25,8 +25,7 @@ private:
     SphericalRectangle() = default;
 
     const Rectangle* rectangle_ = nullptr;
-    // In the frame of the rectangle with x at its origin: from (x0, y0) to (x1, y1) at height z <
-    // 0.
+    // In the frame of the rectangle with x at its origin: from (x0, y0) to (x1, y1), below x.
     double x0_ = 0.0, x1_ = 0.0, y0_ = 0.0, y1_ = 0.0, z_ = 0.0;
     double width_m_ = 0.0, height_m_ = 0.0;
     // z components of the normals of the planes through x and the edges y0 and y1; k: section 4.

@@ -150,6 +150,22 @@ TEST_CASE("The mean inverse density of a rectangle is its solid angle", "[light]
     check_mean(far.value, far.standard_error, truth_far, {0.001});
 }
 
+TEST_CASE("A long lamp is sampled evenly beside its end", "[light]") {
+    // By its area over the squared distance of its centre, 0.02, it would pass for small; then
+    // points nearby would bring 4e4 times as much as those at the other end.
+    const AreaLight light{object, Rectangle{{0, -0.01, 0}, {2, 0, 0}, {0, 0.02, 0}}};
+    const Vec3 x(-0.005, 0.0, 0.01);
+    const double pdf = illuminate(light, x, 0.5, 0.5)->pdf_solid_angle;
+    for (const double u : {0.01, 0.2, 0.9, 0.999}) {
+        CHECK_THAT(illuminate(light, x, u, 1.0 - u)->pdf_solid_angle, WithinRel(pdf, 1e-12));
+    }
+    const Mean mean = irradiance(light, x, -Vec3::UnitZ(), 100000);
+    const double truth = 1.0 / (pi * 0.04) *
+                         lambert_polygon({{0, -0.01, 0}, {2, -0.01, 0}, {2, 0.01, 0}, {0, 0.01, 0}},
+                                         x, Vec3::UnitZ());
+    check_mean(mean.value, mean.standard_error, truth, {0.02});
+}
+
 TEST_CASE("A large rectangle is sampled within its edges, from anywhere", "[light]") {
     const Rectangle rectangle{{-0.5, -1, 1}, {0, 2, 0}, {1, 0, 0}};
     const AreaLight light{object, rectangle, true};

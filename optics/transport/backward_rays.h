@@ -1,4 +1,4 @@
-// How many backward rays each bin gets in a phase.
+// How many backward rays each bin gets in a phase, and with which kernels they gather.
 #pragma once
 
 #include <span>
@@ -44,7 +44,7 @@ struct RaySums {
     }
 };
 
-/// The number of rays of each bin, the same in all phases: it must not follow what phases find.
+/// The rays and kernels of each bin, the same in all phases: they must not follow what phases find.
 class BackwardRays {
 public:
     BackwardRays() = default;  ///< none

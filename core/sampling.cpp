@@ -15,6 +15,33 @@ Vec2 sample_disk(double u1, double u2) {
     return {radius * std::cos(angle), radius * std::sin(angle)};
 }
 
+Vec2 numbers_of_disk_sample(const Vec2& point) {
+    const double radius = point.norm();
+    double x = radius;
+    double y = 0.0;
+    // Sectors of a quarter turn around the four axes; within one the angle is in proportion.
+    const double quarters = std::atan2(point.y(), point.x()) / (pi / 2.0);
+    const double axis = std::round(quarters);
+    const double across = 2.0 * radius * (quarters - axis);
+    const int sector = (static_cast<int>(axis) + 4) % 4;
+    if (sector == 0) {
+        y = across;
+    } else if (sector == 1) {
+        x = -across;
+        y = radius;
+    } else if (sector == 2) {
+        x = -radius;
+        y = -across;
+    } else {
+        x = across;
+        y = -radius;
+    }
+    const auto number = [](double coordinate) {
+        return std::clamp(0.5 * (coordinate + 1.0), 0.0, std::nextafter(1.0, 0.0));
+    };
+    return {number(x), number(y)};
+}
+
 Vec3 sample_cosine_hemisphere(double u1, double u2) {
     const Vec2 d = sample_disk(u1, u2);
     return {d.x(), d.y(), std::sqrt(std::max(0.0, 1.0 - d.squaredNorm()))};

@@ -17,6 +17,8 @@ Vec3 sample_sphere(double u1, double u2);
 
 /// Point in the unit disk with density 1 / pi per area (concentric map of Shirley and Chiu, 1997).
 Vec2 sample_disk(double u1, double u2);
+/// The two numbers from which sample_disk() makes a point of the unit disk.
+Vec2 numbers_of_disk_sample(const Vec2& point);
 
 /// Direction within a cone around +z of the given half angle, uniform per solid angle.
 Vec3 sample_cone(double cos_half_angle, double u1, double u2);

@@ -31,6 +31,7 @@ BackwardMap::BackwardMap(const Phase& phase, const Radii& radii,
                   photons_.begin() + static_cast<std::ptrdiff_t>(block_starts_[i]));
         blocks[i] = {};
     });
+    for (const BackwardPhoton& photon : photons_) accepted_ |= photon.accepts;
     build_grid(threads);
 }
 
@@ -66,7 +67,7 @@ void BackwardMap::build_grid(int threads) {
 
 template <typename Use>
 void BackwardMap::for_each_around(const Photon& photon, Use&& use) const {
-    if (photons_.empty()) return;
+    if (!(accepted_ & mask(photon.history))) return;
     const Stage& stage = phase_->stage;
     const std::uint32_t patch = kernel_patch(stage, photon.point);
     const double radius_m = (*radii_)[patch];
@@ -77,7 +78,7 @@ void BackwardMap::for_each_around(const Photon& photon, Use&& use) const {
     for (const Candidate& candidate : grid_.bucket(key.hash() & bucket_mask_)) {
         if ((candidate.position - position).squaredNorm() > square) continue;
         const BackwardPhoton& backward = photons_[candidate.index];
-        if (!(backward.accepts & static_cast<std::uint8_t>(photon.history))) continue;
+        if (!(backward.accepts & mask(photon.history))) continue;
         if (kernel_patch(stage, backward.point) != patch) continue;
         if (!in_kernel(stage, backward.point, photon.point, radius_m)) continue;
         use(candidate.index);

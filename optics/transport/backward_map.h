@@ -87,6 +87,7 @@ private:
     const Phase* phase_ = nullptr;
     const Radii* radii_ = nullptr;
     std::vector<BackwardPhoton> photons_;
+    std::uint8_t accepted_ = 0;  // by any of them
     std::vector<std::size_t> block_starts_;
     std::vector<KernelSums> sums_;  // of f dPhi, at both radii
     std::vector<std::uint8_t> touched_;

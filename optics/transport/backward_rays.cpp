@@ -129,11 +129,15 @@ BackwardRays::BackwardRays(const SceneParts& parts, const Readings& readings,
                 std::clamp<std::size_t>(gathers_of_image / bins.count, 1, rays));
             const std::uint32_t per_gather = rays / gathers;
             const std::uint32_t shared = gathers > 1 ? per_gather : rays_that_share_a_gather;
-            observers_.push_back({rays, per_gather, shared, rays, 0, {}, {}, false});
+            observers_.push_back({.even = rays,
+                                  .per_gather = per_gather,
+                                  .shared = shared,
+                                  .most = rays,
+                                  .looks_for_barriers = false});
         } else {
             const auto rays = static_cast<std::uint32_t>(
                 std::clamp<std::size_t>(sensor_rays_per_phase / bins.count, 16, 4096));
-            observers_.push_back({rays, 1, 1, rays, 0, {}, {}});
+            observers_.push_back({.even = rays, .per_gather = 1, .shared = 1, .most = rays});
         }
     }
     number(readings);
@@ -146,7 +150,11 @@ BackwardRays BackwardRays::of_pilot(const SceneParts& parts, const Readings& rea
         const auto rays = static_cast<std::uint32_t>(std::bit_floor(
             std::clamp<std::size_t>(pilot_rays_of_image / bins.count, 1, per_pixel)));
         const std::uint32_t count = is_camera(parts, bins) ? rays : 0;
-        pilot.observers_.push_back({count, 1, 1, rays, 0, {}, {}, false});
+        pilot.observers_.push_back({.even = count,
+                                    .per_gather = 1,
+                                    .shared = 1,
+                                    .most = rays,
+                                    .looks_for_barriers = false});
     }
     pilot.number(readings);
     return pilot;

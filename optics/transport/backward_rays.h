@@ -4,6 +4,7 @@
 #include <span>
 
 #include "optics/transport/readings.h"
+#include "optics/transport/square_density.h"
 
 namespace lucerna::optics {
 
@@ -11,6 +12,14 @@ namespace lucerna::optics {
 struct BinBlock {
     std::size_t observer_bins;  ///< index of the ObserverBins
     std::size_t first, last;    ///< bins within the observer, last excluded
+};
+
+/// From where indirect light arrives at the points of one side of a patch: a density over the two
+/// numbers that sample_cosine_hemisphere() makes directions of.
+struct ArrivalDensity {
+    std::uint32_t patch = 0;  ///< see kernel_patch()
+    bool above = true;        ///< its side
+    SquareDensity density;
 };
 
 /// The backward rays of a bin in a phase.
@@ -24,6 +33,8 @@ struct BinRays {
     /// Radii of their kernels of indirect light over those of the surface.
     double kernel_scale;
     bool barriers;  ///< whether their kernels are looked through for barriers
+    /// Where they are scattered to at their first event, if that is on the patch; else nullptr.
+    const ArrivalDensity* arrivals;
 };
 
 /// What the single rays of a bin read: the number of rays, and sums over them.
@@ -62,10 +73,12 @@ public:
     BinRays of(std::size_t observer_bins, std::size_t bin) const {
         const Shares& own = observers_[observer_bins];
         const std::uint32_t count = own.count_of(bin);
-        return {count, std::min(count, own.shared),
+        return {count,
+                std::min(count, own.shared),
                 own.first_path + static_cast<std::uint32_t>(bin) * own.most,
                 own.kernels.empty() ? 1.0 : double{own.kernels[bin].scale},
-                own.kernels.empty() ? own.looks_for_barriers : own.kernels[bin].barriers};
+                own.kernels.empty() ? own.looks_for_barriers : own.kernels[bin].barriers,
+                own.arrivals.empty() ? nullptr : &own.arrivals[bin / own.bins_per_arrivals]};
     }
     const std::vector<BinBlock>& blocks() const { return blocks_; }
     std::uint64_t per_phase() const { return total_; }
@@ -92,6 +105,14 @@ public:
     /// The same kernels as those of other rays of the same observers.
     void take_kernels(const BackwardRays& other);
 
+    /// Scatters the rays of an observer's bins to where light arrives from.
+    /// @param bins_per_arrivals  neighbouring bins that share a density.
+    void guide(std::size_t observer_bins, std::vector<ArrivalDensity> arrivals,
+               std::size_t bins_per_arrivals) {
+        observers_[observer_bins].arrivals = std::move(arrivals);
+        observers_[observer_bins].bins_per_arrivals = bins_per_arrivals;
+    }
+
 private:
     struct Kernel {
         float scale = 1.0f;
@@ -103,8 +124,10 @@ private:
         std::uint32_t shared;      // rays of any pixel that share a gather at most
         std::uint32_t most;        // rays that any bin may have
         std::uint32_t first_path = 0;
-        std::vector<std::uint8_t> log2;  // of each bin's number; empty if it is `even` for all
-        std::vector<Kernel> kernels;     // of each bin; empty if nothing is known of them
+        std::vector<std::uint8_t> log2 = {};  // of each bin's number; empty if it is `even` for all
+        std::vector<Kernel> kernels = {};     // of each bin; empty if nothing is known of them
+        std::vector<ArrivalDensity> arrivals = {};  // each of some bins; empty if none is known
+        std::size_t bins_per_arrivals = 1;
         bool looks_for_barriers = true;  // while nothing is known
         // Of an image only the pixels in the middles of tiles have rays.
         std::size_t tile = 1, width = 1;

@@ -142,6 +142,12 @@ private:
         });
     }
 
+    // Weights of direct light keep to the density of the cosine: any weights that add up to one
+    // for a direction leave the sum unbiased.
+    void scatter_to_arrivals(double& u1, double& u2) {
+        path_.weight *= static_cast<float>(rays_.arrivals->density.warp(u1, u2));
+    }
+
     bool leave_sensor(const IlluminancePoints& points, const SensorPlanes::Point& sensor, double u1,
                       double u2, StratifiedStream& random) {
         const Vec3& position = sensor.position;
@@ -149,11 +155,13 @@ private:
         LightSamples samples = LightSamples::weighed;
         at_sensor(points, sensor, [&](const GatherPoint& at) {
             samples = samples_of_lights(at);
-            readings_.add(phase_, bin_,
-                          path_.weight * direct_light(phase_, at, nullptr, path_.media, path_.media,
-                                                      samples, random, tally_.shadow_segments));
+            readings_.add(
+                phase_, bin_,
+                path_.weight * direct_light(phase_, at, nullptr, path_.media, path_.media, samples,
+                                            ShadowRays::of_all, random, tally_.shadow_segments));
         });
         if (samples == LightSamples::alone) return false;
+        if (rays_.arrivals) scatter_to_arrivals(u1, u2);
         const Vec3 wi = sample_cosine_hemisphere(u1, u2);
         path_.ray = {position, Frame(points.normal).to_world(wi)};
         scattered_at(position, wi.z() / pi);
@@ -174,15 +182,20 @@ private:
             return true;
         }
         const bool collected = scatterings_ > 0 && !collection_.whole_path;
-        if (collected && collection_.second_deposit == 0) return false;
+        if (collected && (scatterings_ > 1 || collection_.second_deposit == 0)) return false;
 
         const Bsdf& bsdf = stage.parts().bsdfs[encounter->bsdf];
         const SurfaceOptics optics = optics_at(phase_, *encounter, path_);
         if (stage.scatters(encounter->bsdf)) {
-            if (collected) {
-                store(*encounter, collection_.second_deposit);
-            } else {
-                if (collect(*encounter, bsdf, optics, random) == LightSamples::alone) return false;
+            const GatherPoint at{encounter->point, encounter->frame, encounter->wo, bsdf, optics};
+            if (scatterings_ == 0) {
+                gather_where_seen(at);
+                if (collection_.first_deposit) store(*encounter, collection_.first_deposit);
+            }
+            if (collected) store(*encounter, collection_.second_deposit);
+            const bool lit = !collected || collection_.second_direct;
+            if (lit && add_direct_light(*encounter, at, random) == LightSamples::alone) {
+                return false;
             }
         }
         if (scatterings_ == 0 && importance_ >= least_importance_to_branch &&
@@ -191,10 +204,17 @@ private:
             return true;
         }
         const double u_lobe = random.uniform();
-        const auto [u1, u2] = random.pair();
+        auto [u1, u2] = random.pair();
+        if (scatterings_ == 0 && rays_.arrivals && std::holds_alternative<Diffuse>(bsdf) &&
+            rays_.arrivals->patch == kernel_patch(stage, encounter->point) &&
+            rays_.arrivals->above == (encounter->wo.z() > 0.0)) {
+            scatter_to_arrivals(u1, u2);
+        }
         const auto sampled =
             sample(bsdf, optics, encounter->wo, u_lobe, u1, u2, Transport::radiance);
-        if (!sampled || (collected && !sampled->specular)) return false;
+        if (!sampled) return false;
+        // Beyond the second event a ray is followed for the emission that it might find.
+        if (collected && !sampled->specular && !collection_.second_direct) return false;
         const bool turned_hero = sampled->hero_only && !path_.hero_only;
         const Lanes factors = sampled->weight * encounter->transmittance;
         follow(path_, *encounter, *sampled);
@@ -260,26 +280,25 @@ private:
 
     // Where a path need not go on but for emission that a scattered ray might find.
     LightSamples samples_of_lights(const GatherPoint& at) const {
-        const bool ends = !collection_.whole_path && collection_.second_deposit == 0;
+        const bool ends =
+            !collection_.whole_path && (scatterings_ > 0 || collection_.second_deposit == 0);
         return ends && lights_suffice(phase_.stage, at.bsdf, at.point.position)
                    ? LightSamples::alone
                    : LightSamples::weighed;
     }
 
-    // Direct and gathered light at the first scattering event (at every one in path tracing).
-    LightSamples collect(const Encounter& encounter, const Bsdf& bsdf, const SurfaceOptics& optics,
-                         StratifiedStream& random) {
-        const GatherPoint at{encounter.point, encounter.frame, encounter.wo, bsdf, optics};
+    LightSamples add_direct_light(const Encounter& encounter, const GatherPoint& at,
+                                  StratifiedStream& random) {
         const bool above = encounter.wo.z() > 0.0;
         const LightSamples samples = samples_of_lights(at);
-        readings_.add(phase_, bin_,
-                      path_.weight * direct_light(phase_, at, &encounter.point,
-                                                  above ? path_.media : encounter.media_beyond,
-                                                  above ? encounter.media_beyond : path_.media,
-                                                  samples, random, tally_.shadow_segments));
-        if (scatterings_ > 0) return samples;
-        gather_where_seen(at);
-        if (collection_.first_deposit) store(encounter, collection_.first_deposit);
+        const ShadowRays shadow_rays =
+            scatterings_ > 0 && !collection_.whole_path ? ShadowRays::of_one : ShadowRays::of_all;
+        readings_.add(
+            phase_, bin_,
+            path_.weight * direct_light(phase_, at, &encounter.point,
+                                        above ? path_.media : encounter.media_beyond,
+                                        above ? encounter.media_beyond : path_.media, samples,
+                                        shadow_rays, random, tally_.shadow_segments));
         return samples;
     }
 
@@ -438,7 +457,8 @@ Collection Collection::of(Method method, PlantedError planted) {
         case Method::automatic:
         case Method::combined:
             collection.first_gather = collection.sensor_gather = caustic;
-            collection.second_deposit = all_light;
+            collection.second_direct = true;
+            collection.second_deposit = mapped;
             break;
         case Method::forward:
             collection.first_gather = collection.sensor_gather = mapped;
@@ -454,7 +474,10 @@ Collection Collection::of(Method method, PlantedError planted) {
             break;
     }
     if (planted == PlantedError::double_count) collection.emission_behind_specular = true;
-    if (planted == PlantedError::gap) collection.second_deposit &= mapped;
+    if (planted == PlantedError::gap) {
+        collection.second_direct = false;
+        collection.second_deposit &= mapped;
+    }
     return collection;
 }
 

@@ -16,6 +16,7 @@ struct Collection {
     std::uint8_t first_gather = 0;          ///< v = 1: gathered from the forward map, on surfaces
     std::uint8_t sensor_gather = 0;         ///< v = 1: the same at illuminance points
     std::uint8_t first_deposit = 0;         ///< v = 1: accepted by a backward photon
+    bool second_direct = false;             ///< v = 2: direct light by MIS, too
     std::uint8_t second_deposit = 0;        ///< v = 2: accepted by a backward photon
     bool whole_path = false;                ///< path tracing: direct light at every v, no maps
     bool emission_behind_specular = false;  ///< L S+ D ... E found by the ray itself

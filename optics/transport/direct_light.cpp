@@ -86,7 +86,8 @@ bool lights_suffice(const Stage& stage, const Bsdf& bsdf, const Vec3& x) {
 
 Lanes direct_light(const Phase& phase, const GatherPoint& at, const SurfacePoint* surface,
                    const MediumStack& media_above, const MediumStack& media_below,
-                   LightSamples samples, StratifiedStream& random, std::uint64_t& shadow_segments) {
+                   LightSamples samples, ShadowRays shadow_rays, StratifiedStream& random,
+                   std::uint64_t& shadow_segments) {
     const Stage& stage = phase.stage;
     const std::size_t lights = stage.parts().lights.size();
     const std::size_t draws = std::min(lights, max_light_draws);
@@ -130,16 +131,27 @@ Lanes direct_light(const Phase& phase, const GatherPoint& at, const SurfacePoint
         total += candidate.luminance;
     }
     Lanes sum = Lanes::Zero();
-    for (std::size_t i = 0; i < found; ++i) {
-        const Candidate& candidate = candidates[i].value;
-        // Shadow rays for what matters; the rest by roulette.
-        const double tested =
-            total > 0.0 ? std::min(1.0, candidate.luminance / (roulette_share * total)) : 1.0;
-        if (random.uniform() >= tested) continue;
+    const auto test = [&](const Candidate& candidate, double probability) {
         const auto seen =
             line_of_sight(phase, at.point.position, surface, candidate.light,
                           candidate.above ? media_above : media_below, shadow_segments);
-        if (seen) sum += candidate.radiance * *seen / static_cast<float>(tested);
+        if (seen) sum += candidate.radiance * *seen / static_cast<float>(probability);
+    };
+    if (!(total > 0.0)) return sum;
+    if (shadow_rays == ShadowRays::of_one && found > 1) {
+        double rest = random.uniform() * total;
+        std::size_t chosen = 0;
+        while (chosen + 1 < found && rest >= candidates[chosen].value.luminance) {
+            rest -= candidates[chosen++].value.luminance;
+        }
+        test(candidates[chosen].value, candidates[chosen].value.luminance / total);
+        return sum;
+    }
+    for (std::size_t i = 0; i < found; ++i) {
+        // Shadow rays for what matters; the rest by roulette.
+        const Candidate& candidate = candidates[i].value;
+        const double tested = std::min(1.0, candidate.luminance / (roulette_share * total));
+        if (random.uniform() < tested) test(candidate, tested);
     }
     return sum;
 }

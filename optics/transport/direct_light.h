@@ -19,6 +19,13 @@ enum class LightSamples {
     alone     ///< unbiased by themselves
 };
 
+/// Which of the sampled points of the lights are tested for what stands in their way; unbiased
+/// either way.
+enum class ShadowRays {
+    of_all,  ///< but for those that matter little, by roulette
+    of_one   ///< chosen by the luminance that it would bring: where many paths share the work
+};
+
 /// True where sampled points of the lights have little noise by themselves, so that no scattered
 /// ray need look for emission: at a diffuse surface, if each light either is sampled by solid angle
 /// or looks small from x.
@@ -29,7 +36,8 @@ bool lights_suffice(const Stage& stage, const Bsdf& bsdf, const Vec3& x);
 /// @param media_above, media_below  solids that hold the space on both sides of the surface.
 Lanes direct_light(const Phase& phase, const GatherPoint& at, const SurfacePoint* surface,
                    const MediumStack& media_above, const MediumStack& media_below,
-                   LightSamples samples, StratifiedStream& random, std::uint64_t& shadow_segments);
+                   LightSamples samples, ShadowRays shadow_rays, StratifiedStream& random,
+                   std::uint64_t& shadow_segments);
 
 /// Weight of emission found by a direction that the BSDF chose with density `pdf_solid_angle` from
 /// x.

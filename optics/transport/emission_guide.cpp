@@ -47,73 +47,15 @@ Choice choose(std::span<const RayOfUse> rays) {
 }  // namespace
 
 EmissionGuide::Table::Table(int pair, std::size_t side, std::span<const RayOfUse> rays)
-    : pair_(pair), side_(side) {
+    : first_(2 * static_cast<std::size_t>(pair)) {
     std::vector<double> use(side * side);
     for (const RayOfUse& ray : rays) {
-        const double* u = ray.departure.u.data() + 2 * pair;
-        use[cell(u[0]) * side + cell(u[1])] += ray.use;
+        const auto& u = ray.departure.u;
+        use[SquareDensity::cell(side, u[first_], u[first_ + 1])] += ray.use;
     }
-    // With the neighbours: what is of use does not end where the few rays that were traced do.
-    const auto near = [&](std::size_t row, std::size_t column) {
-        double sum = 0.0;
-        double count = 0.0;
-        for (std::size_t i = row - std::min<std::size_t>(row, 1); i <= std::min(row + 1, side - 1);
-             ++i) {
-            for (std::size_t j = column - std::min<std::size_t>(column, 1);
-                 j <= std::min(column + 1, side - 1); ++j) {
-                const double share = (i == row ? 2.0 : 1.0) * (j == column ? 2.0 : 1.0);
-                sum += share * use[i * side + j];
-                count += share;
-            }
-        }
-        return sum / count;
-    };
-    std::vector<double> roots;
-    double total = 0.0;
-    for (std::size_t row = 0; row < side; ++row) {
-        for (std::size_t column = 0; column < side; ++column) {
-            roots.push_back(std::sqrt(near(row, column)));
-            total += roots.back();
-        }
-    }
-    const auto cells = static_cast<double>(side * side);
-    std::vector<double> of_rows;
-    for (std::size_t row = 0; row < side; ++row) {
-        const auto first = roots.begin() + static_cast<std::ptrdiff_t>(row * side);
-        double sum = 0.0;
-        for (auto root = first; root != first + static_cast<std::ptrdiff_t>(side); ++root) {
-            const double learned = total > 0.0 ? *root / total : 1.0 / cells;
-            *root = share_of_unguided / cells + (1.0 - share_of_unguided) * learned;
-            sum += *root;
-        }
-        of_rows.push_back(sum);
-        columns_.emplace_back(std::span<const double>(&*first, side));
-    }
-    rows_ = DiscreteDistribution(of_rows);
-}
-
-std::size_t EmissionGuide::Table::cell(double u) const {
-    return std::min(static_cast<std::size_t>(u * static_cast<double>(side_)), side_ - 1);
-}
-
-double EmissionGuide::Table::warp(std::array<double, 4>& u) const {
-    if (side_ == 1) return 1.0;
-    double* const own = u.data() + 2 * pair_;
-    const auto side = static_cast<double>(side_);
-    double rest = 0.0;
-    const std::size_t row = rows_.sample(own[0], &rest);
-    own[0] = (static_cast<double>(row) + rest) / side;
-    const std::size_t column = columns_[row].sample(own[1], &rest);
-    own[1] = (static_cast<double>(column) + rest) / side;
-    return 1.0 / (side * side * rows_.probability(row) * columns_[row].probability(column));
-}
-
-double EmissionGuide::Table::density(const std::array<double, 4>& u) const {
-    if (side_ == 1) return 1.0;
-    const double* const own = u.data() + 2 * pair_;
-    const auto side = static_cast<double>(side_);
-    const std::size_t row = cell(own[0]);
-    return side * side * rows_.probability(row) * columns_[row].probability(cell(own[1]));
+    std::vector<double> roots = with_neighbours(side, use);
+    for (double& root : roots) root = std::sqrt(root);
+    density_ = SquareDensity(side, roots, share_of_unguided);
 }
 
 EmissionGuide::EmissionGuide(std::span<const double> flux, std::span<const RayOfUse> rays) {

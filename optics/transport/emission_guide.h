@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/sampling.h"
+#include "optics/transport/square_density.h"
 
 namespace lucerna::optics {
 
@@ -46,22 +46,22 @@ public:
     /// The departure from a light that uniform numbers lead to, for lights chosen by lights().
     Departure depart(std::size_t light, std::array<double, 4> u) const;
 
-    /// A density over one pair of the numbers, constant in the cells of a square grid.
+    /// A density over one pair of the numbers.
     class Table {
     public:
         Table() = default;  ///< even
         Table(int pair, std::size_t side, std::span<const RayOfUse> rays);
         /// Moves the pair to where the density is; returns 1 over the density there.
-        double warp(std::array<double, 4>& u) const;
-        double density(const std::array<double, 4>& u) const;
+        double warp(std::array<double, 4>& u) const {
+            return density_.warp(u[first_], u[first_ + 1]);
+        }
+        double density(const std::array<double, 4>& u) const {
+            return density_.density(u[first_], u[first_ + 1]);
+        }
 
     private:
-        std::size_t cell(double u) const;
-
-        int pair_ = 0;
-        std::size_t side_ = 1;
-        DiscreteDistribution rows_;
-        std::vector<DiscreteDistribution> columns_;  // of each row
+        std::size_t first_ = 0;  // of the pair
+        SquareDensity density_;
     };
 
 private:

@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "optics/transport/arrival_density.h"
 #include "optics/transport/emission_pilot.h"
 
 namespace lucerna::optics {
@@ -12,6 +13,8 @@ namespace {
 constexpr std::uint32_t min_pilot_rays = 1 << 14, max_pilot_rays = 1 << 15;
 // That tell how wide the kernels of sensors may be.
 constexpr std::uint32_t rays_to_widen = 1 << 18;
+// That tell from where indirect light arrives at sensors.
+constexpr std::uint32_t rays_to_guide = 1 << 16;
 constexpr double default_sensor_accuracy = 0.02;  // where none is asked for
 // What the choice of the collection for images is made from.
 constexpr std::uint32_t pilot_phases = 3;
@@ -136,6 +139,27 @@ void choose_radii(const TraceContext& context, const Settings& settings, Plan& p
                    min_forward_rays, at_least_min(plan.rays.per_phase())));
 }
 
+// Where the rays of sensors are scattered to.
+void guide_sensors(const TraceContext& context, const Settings& settings, Plan& plan) {
+    const auto& observers = context.readings.observers();
+    const Collection& collection = plan.collections.sensors;
+    if (!collection.reaches_second_event() ||
+        std::all_of(observers.begin(), observers.end(),
+                    [&](const auto& bins) { return is_camera(context, bins); })) {
+        return;
+    }
+    const Phase phase(context.stage, settings.seed, pilot_phase - pilot_phases - 7);
+    constexpr std::uint8_t indirect = mask(History::indirect);
+    const std::uint8_t wanted =
+        collection.sensor_gather ? indirect : indirect | mask(History::caustic);
+    ForwardTally unused(context.stage.parts());
+    const PilotPhotons pilot{trace_photons(phase, context, Emission(phase, RandomPurpose::pilot),
+                                           Reach::whole_path, wanted, rays_to_guide, unused),
+                             rays_to_guide};
+    scatter_to_arrivals(phase, context, seen_points(phase, context, settings), pilot, wanted,
+                        plan.rays);
+}
+
 // Blocks spread evenly over all images.
 std::vector<BinBlock> some_of_images(const TraceContext& context, const BackwardRays& rays) {
     std::vector<BinBlock> of_images;
@@ -236,6 +260,7 @@ Plan make_plan(const TraceContext& context, const Settings& settings) {
     plan.observed = !plan.rays.blocks().empty();
     if (!plan.observed) return plan;
     choose_radii(context, settings, plan);
+    guide_sensors(context, settings, plan);
     if (settings.method == Method::automatic) choose_collection_of_images(context, settings, plan);
     const auto& observers = context.readings.observers();
     const bool only_cameras =

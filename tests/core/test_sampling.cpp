@@ -107,6 +107,22 @@ TEST_CASE("Points in the disk are uniform", "[statistical]") {
     CHECK(sample_disk(0.5, 0.5) == Vec2(0.0, 0.0));
 }
 
+TEST_CASE("A point of the disk tells the numbers that it was sampled from") {
+    for (double u1 = 0.0; u1 < 1.0; u1 += 0.03125) {
+        for (double u2 = 0.0; u2 < 1.0; u2 += 0.0312) {
+            INFO("u1 " << u1 << ", u2 " << u2);
+            const Vec2 point = sample_disk(u1, u2);
+            const Vec2 numbers = numbers_of_disk_sample(point);
+            REQUIRE((numbers.array() >= 0.0).all());
+            REQUIRE((numbers.array() < 1.0).all());
+            // On the rim the two numbers of a diagonal meet, so that the point is compared.
+            CHECK((sample_disk(numbers.x(), numbers.y()) - point).norm() < 1e-12);
+        }
+    }
+    CHECK((numbers_of_disk_sample(sample_disk(0.3, 0.9)) - Vec2(0.3, 0.9)).norm() < 1e-12);
+    CHECK((numbers_of_disk_sample(sample_disk(0.9, 0.4)) - Vec2(0.9, 0.4)).norm() < 1e-12);
+}
+
 TEST_CASE("Moments of the samplers are those of their densities", "[statistical]") {
     // E[z] = 2/3 and E[z^2] = 1/2 under cos / pi; E[z^2] = 1/3 on the sphere; E[r^2] = 1/2 in the
     // disk. Stratified 1000 x 1000 midpoints leave less than 1e-5.

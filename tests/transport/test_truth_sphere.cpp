@@ -77,6 +77,37 @@ TEST_CASE("Integrating sphere: a point source off its centre", "[analytic]") {
     CHECK(result.quantities[result.quantities.size() - 2].estimate.mean() == 0.0);  // outer side
 }
 
+TEST_CASE("Integrating sphere: two point sources, and twelve", "[analytic]") {
+    // On the axis of the cap that the meter sees; at the second event one of them is tested for
+    // shadows, and of more than eight a few are drawn.
+    const int lamps = GENERATE(2, 12);
+    const auto method = GENERATE(Method::combined, Method::backward);
+    INFO(lamps << " lamps, method " << static_cast<int>(method));
+    constexpr double rho = 0.5, half_angle_rad = 0.4;
+    SceneBuilder scene;
+    scene.object("wall", Sphere{Vec3::Zero(), radius_m}, scene.diffuse(rho));
+    scene.meter(Vec3::Zero(), {0.0, 0.0, -1.0}, half_angle_rad);
+    double all_lm = 0.0;
+    double on_cap_lm = 0.0;
+    for (int i = 0; i < lamps; ++i) {
+        const double z = 0.3 - 0.5 * i / lamps;
+        const double lamp_lm = flux_lm * (i + 1);
+        scene.light("lamp", PointLight{Vec3(0.0, 0.0, z)}, lamp_lm);
+        all_lm += lamp_lm;
+        const double rim_z = -radius_m * std::cos(half_angle_rad) - z;
+        const double rim_x = radius_m * std::sin(half_angle_rad);
+        on_cap_lm += lamp_lm * 0.5 * (1.0 - std::abs(rim_z) / std::hypot(rim_x, rim_z));
+    }
+    const double cap_m2 = 2.0 * pi * radius_m * radius_m * (1.0 - std::cos(half_angle_rad));
+    const double reflected = all_lm * rho / (wall_area_m2 * (1.0 - rho));
+    const double luminance = rho / pi * (on_cap_lm / cap_m2 + reflected);
+    const Result result = test::run(scene, method, {200, 4000});
+    test::check_truth(result.quantities[0].estimate, luminance);
+    // Without the light that was reflected once on its way to the cap.
+    test::check_refutes(result.quantities[0].estimate,
+                        luminance - rho / pi * all_lm * rho / wall_area_m2);
+}
+
 TEST_CASE("Integrating sphere: a lamp that absorbs and reflects", "[analytic]") {
     // A sphere of radius a in the centre takes the share f = (a / R)^2 of what the wall sends out
     // and returns the share r of it to the wall: E = Phi / (A (1 - rho (1 - f) - rho f r)).

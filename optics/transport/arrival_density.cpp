@@ -69,13 +69,13 @@ SquareDensity learned_around(const Vec3& point, bool above, std::span<const Arri
     return learned(near);
 }
 
-std::vector<std::vector<Arrival>> arrivals_by_patch(const Phase& phase, const TraceContext& context,
-                                                    const PilotPhotons& pilot,
-                                                    std::uint8_t wanted) {
+std::vector<std::vector<Arrival>> arrivals_by_patch(
+    const Phase& phase, const TraceContext& context, const PilotPhotons& pilot,
+    const std::function<bool(const Photon&)>& wanted) {
     std::vector<std::vector<Arrival>> arrivals(context.stage.patch_count() +
                                                context.planes.count());
     for (const Photon& photon : pilot.photons) {
-        if (!(wanted & mask(photon.history))) continue;
+        if (!wanted(photon)) continue;
         const Frame frame = photon.point.object == no_object ? Frame(photon.point.normal)
                                                              : bsdf_frame(phase, photon.point);
         const Vec3 wi = frame.to_local(-photon.direction);
@@ -89,7 +89,8 @@ std::vector<std::vector<Arrival>> arrivals_by_patch(const Phase& phase, const Tr
 }  // namespace
 
 void scatter_to_arrivals(const Phase& phase, const TraceContext& context, const SeenPoints& seen,
-                         const PilotPhotons& pilot, std::uint8_t wanted, BackwardRays& rays) {
+                         const PilotPhotons& pilot,
+                         const std::function<bool(const Photon&)>& wanted, BackwardRays& rays) {
     const auto arrivals = arrivals_by_patch(phase, context, pilot, wanted);
     const auto& observers = context.readings.observers();
     for (std::size_t i = 0; i < observers.size(); ++i) {

@@ -14,8 +14,9 @@ namespace lucerna::optics {
 /// more than 4 times the usual.
 /// @param seen    tells where meters look.
 /// @param pilot   photons of independent rays.
-/// @param wanted  histories of the light that rays are scattered for, or-ed.
+/// @param wanted  whether rays are scattered for the light of a photon.
 void scatter_to_arrivals(const Phase& phase, const TraceContext& context, const SeenPoints& seen,
-                         const PilotPhotons& pilot, std::uint8_t wanted, BackwardRays& rays);
+                         const PilotPhotons& pilot,
+                         const std::function<bool(const Photon&)>& wanted, BackwardRays& rays);
 
 }  // namespace lucerna::optics

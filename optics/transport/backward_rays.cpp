@@ -27,10 +27,6 @@ constexpr int most_narrowings = 3;
 // A pixel gets at most this many times the rays of the average one.
 constexpr std::uint32_t most_times_even = 32;
 
-bool is_camera(const SceneParts& parts, const ObserverBins& bins) {
-    return std::holds_alternative<Camera>(parts.observers[bins.observer]);
-}
-
 std::uint32_t rays_of_pixel(std::size_t pixels, const Settings& settings) {
     if (settings.samples_per_pixel) return static_cast<std::uint32_t>(*settings.samples_per_pixel);
     return static_cast<std::uint32_t>(

@@ -14,16 +14,21 @@ constexpr double least_importance_to_branch = 0.02;
 /// One backward ray on its way.
 class BackwardRay {
 public:
-    BackwardRay(const Phase& phase, const Collection& collection, const ObserverBins& bins,
+    BackwardRay(const Phase& phase, const Collections& collections, const ObserverBins& bins,
                 const SensorPlanes& planes, const ForwardMaps& maps, PhaseReadings& readings,
                 BackwardTally& tally, std::vector<BackwardPhoton>& stored)
         : phase_(phase),
-          collection_(collection),
+          collection_(is_camera(phase.stage.parts(), bins) ? collections.cameras
+                                                           : collections.sensors),
+          found_(is_camera(phase.stage.parts(), bins) || collections.found_by_sensors.empty()
+                     ? nullptr
+                     : &collections.found_by_sensors),
           planes_(planes),
           maps_(maps),
           readings_(readings),
           tally_(tally),
           stored_(stored) {
+        if (found_) tally.lights_found.resize(found_->size());
         const Observer& observer = phase.stage.parts().observers[bins.observer];
         if (const auto* camera = std::get_if<Camera>(&observer)) {
             camera_rays_.emplace(*camera);
@@ -182,7 +187,7 @@ private:
             return true;
         }
         const bool collected = scatterings_ > 0 && !collection_.whole_path;
-        if (collected && (scatterings_ > 1 || collection_.second_deposit == 0)) return false;
+        if (collected && (scatterings_ > 1 || !goes_on_from_first())) return false;
 
         const Bsdf& bsdf = stage.parts().bsdfs[encounter->bsdf];
         const SurfaceOptics optics = optics_at(phase_, *encounter, path_);
@@ -192,7 +197,9 @@ private:
                 gather_where_seen(at);
                 if (collection_.first_deposit) store(*encounter, collection_.first_deposit);
             }
-            if (collected) store(*encounter, collection_.second_deposit);
+            if (collected && collection_.second_deposit) {
+                store(*encounter, collection_.second_deposit);
+            }
             const bool lit = !collected || collection_.second_direct;
             if (lit && add_direct_light(*encounter, at, random) == LightSamples::alone) {
                 return false;
@@ -268,7 +275,9 @@ private:
         if (light == no_light) return;
         double weight = 1.0;
         if (scatterings_ > 0 && specular_since_) {
-            if (!collection_.emission_behind_specular) return;  // the maps' part
+            const bool found = scatterings_ == 1 && found_ && (*found_)[light];
+            if (!found && !collection_.emission_behind_specular) return;  // the maps' part
+            if (found) ++tally_.lights_found[light];
         } else if (scatterings_ > 0) {
             weight =
                 emission_weight(phase_, light, scattered_from_, encounter.point, scattered_pdf_);
@@ -278,10 +287,12 @@ private:
         readings_.add(phase_, bin_, path_.weight * radiance * static_cast<float>(weight));
     }
 
+    // Whether rays that the first event scatters are of use, but for emission seen straight.
+    bool goes_on_from_first() const { return collection_.second_deposit || found_; }
+
     // Where a path need not go on but for emission that a scattered ray might find.
     LightSamples samples_of_lights(const GatherPoint& at) const {
-        const bool ends =
-            !collection_.whole_path && (scatterings_ > 0 || collection_.second_deposit == 0);
+        const bool ends = !collection_.whole_path && (scatterings_ > 0 || !goes_on_from_first());
         return ends && lights_suffice(phase_.stage, at.bsdf, at.point.position)
                    ? LightSamples::alone
                    : LightSamples::weighed;
@@ -381,6 +392,7 @@ private:
         if (caustic) {
             GatherPoint cut = at;
             if (region) cut.region = &*region;
+            cut.but_of = found_;
             sum += maps_.caustic.gather(phase_, maps_.caustic_radii, cut);
         }
         if (indirect) {
@@ -411,6 +423,7 @@ private:
 
     const Phase& phase_;
     const Collection& collection_;
+    const std::vector<bool>* found_;  // lights, see Collections; nullptr: none
     const SensorPlanes& planes_;
     const ForwardMaps& maps_;
     PhaseReadings& readings_;
@@ -491,10 +504,7 @@ std::vector<BackwardPhoton> trace_backward(const Phase& phase, const Collections
                                            const ForwardMaps& maps, PhaseReadings& readings,
                                            BackwardTally& tally, std::vector<RaySums>* sums) {
     std::vector<BackwardPhoton> stored;
-    const bool camera =
-        std::holds_alternative<Camera>(phase.stage.parts().observers[bins.observer]);
-    BackwardRay ray(phase, camera ? collections.cameras : collections.sensors, bins, planes, maps,
-                    readings, tally, stored);
+    BackwardRay ray(phase, collections, bins, planes, maps, readings, tally, stored);
     for (std::size_t bin = block.first; bin < block.last; ++bin) {
         ray.trace(bins, bin, rays.of(block.observer_bins, bin),
                   sums ? &(*sums)[bins.first_bin + bin] : nullptr);

@@ -142,6 +142,7 @@ void ForwardMap::for_each_in_kernel(const Stage& stage, const GatherPoint& at, d
                     continue;
                 if (!straight && !in_kernel(stage, at.point, photon.point, radius_m)) continue;
                 if (at.region && !at.region->holds(photon.point.position)) continue;
+                if (at.but_of && (*at.but_of)[photon.light]) continue;
                 use(candidate, photon,
                     distance_m2 < inner_square_m2 &&
                         (straight || in_kernel(stage, at.point, photon.point, inner_m)));

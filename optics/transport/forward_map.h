@@ -48,6 +48,7 @@ struct GatherPoint {
     double most_radius_m = infinity;       ///< of the kernel
     std::uint32_t sensor_point = ~0u;      ///< index of a point of a sensor plane, if it is one
     const KernelRegion* region = nullptr;  ///< that barriers leave of the kernel, if there are any
+    const std::vector<bool>* but_of = nullptr;  ///< lights whose photons are left out, if any
 };
 
 struct Gathered {

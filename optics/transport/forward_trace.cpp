@@ -50,8 +50,9 @@ void trace_forward(const Phase& phase, const Emission& emission, std::uint32_t i
     const Stage& stage = phase.stage;
     const SceneParts& parts = stage.parts();
     RandomStream random = emission.random(index);
-    Path path =
-        emitted_path(phase, emission.depart(index, random), emission.common_heroes(), random);
+    const Departure departure = emission.depart(index, random);
+    const auto light = static_cast<std::uint32_t>(departure.light);
+    Path path = emitted_path(phase, departure, emission.common_heroes(), random);
     History history = History::direct;
     double flux_lm = phase.luminous(path.weight);
     tally.emitted += flux_lm;
@@ -67,7 +68,7 @@ void trace_forward(const Phase& phase, const Emission& emission, std::uint32_t i
             planes->crossings(path.ray, length_m, [&](const SurfacePoint& point) {
                 const double way_m = (point.position - path.ray.origin).norm();
                 arrive({point, path.ray.direction, path.weight * phase.transmittance(medium, way_m),
-                        history, on_common_lane()});
+                        history, on_common_lane(), light});
             });
         }
         if (!encounter) {
@@ -94,7 +95,8 @@ void trace_forward(const Phase& phase, const Emission& emission, std::uint32_t i
             continue;
         }
         if (stage.scatters(encounter->bsdf)) {
-            arrive({encounter->point, path.ray.direction, path.weight, history, on_common_lane()});
+            arrive({encounter->point, path.ray.direction, path.weight, history, on_common_lane(),
+                    light});
             // A surface with both kinds of lobes lets the path go on by the specular one.
         }
         const SurfaceOptics at = optics_at(phase, *encounter, path);

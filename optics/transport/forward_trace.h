@@ -30,6 +30,7 @@ struct Photon {
     Lanes flux;      ///< [W/nm] when divided by the number of rays of the trace
     History history;
     bool on_common_lane = false;  ///< alone on it, see choose_common_hero()
+    std::uint32_t light = 0;      ///< that it comes from
 };
 
 /// Counts of a block of forward rays. All fluxes in lm, not yet divided by the number of rays.

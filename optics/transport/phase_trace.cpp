@@ -110,6 +110,13 @@ void deposit(const Phase& phase, const TraceContext& context, std::uint32_t rays
 
 bool Plan::gathers(const Stage& stage, const SensorPlanes& planes, History history) const {
     if (!observed || (history == History::caustic && !stage.has_caustics())) return false;
+    const std::vector<bool>& found = collections.found_by_sensors;
+    if (history == History::caustic && !found.empty() && std::ranges::count(found, false) == 0 &&
+        std::ranges::none_of(stage.parts().observers, [](const Observer& observer) {
+            return std::holds_alternative<Camera>(observer);
+        })) {
+        return false;  // sensors find all of it by themselves
+    }
     std::uint8_t wanted = collections.cameras.first_gather | collections.sensors.first_gather;
     if (planes.count() > 0) wanted |= collections.sensors.sensor_gather;
     return wanted & mask(history);
@@ -191,6 +198,10 @@ void trace_phase(const Phase& phase, const TraceContext& context, const Plan& pl
     for (const BackwardTally& block : backward_tallies) {
         trace.counts.backward_segments += block.segments;
         trace.counts.shadow_segments += block.shadow_segments;
+        trace.lights_found.resize(std::max(trace.lights_found.size(), block.lights_found.size()));
+        for (std::size_t light = 0; light < block.lights_found.size(); ++light) {
+            trace.lights_found[light] += block.lights_found[light];
+        }
     }
     if (!secondary) return;
 

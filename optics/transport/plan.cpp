@@ -4,8 +4,8 @@
 #include <limits>
 #include <utility>
 
-#include "optics/transport/arrival_density.h"
 #include "optics/transport/emission_pilot.h"
+#include "optics/transport/sensor_pilot.h"
 
 namespace lucerna::optics {
 namespace {
@@ -13,8 +13,6 @@ namespace {
 constexpr std::uint32_t min_pilot_rays = 1 << 14, max_pilot_rays = 1 << 15;
 // That tell how wide the kernels of sensors may be.
 constexpr std::uint32_t rays_to_widen = 1 << 18;
-// That tell from where indirect light arrives at sensors.
-constexpr std::uint32_t rays_to_guide = 1 << 16;
 constexpr double default_sensor_accuracy = 0.02;  // where none is asked for
 // What the choice of the collection for images is made from.
 constexpr std::uint32_t pilot_phases = 3;
@@ -45,10 +43,6 @@ constexpr std::uint32_t pilot_phase = std::numeric_limits<std::uint32_t>::max();
 
 std::uint32_t at_least_min(std::uint64_t rays) {
     return static_cast<std::uint32_t>(std::max<std::uint64_t>(min_forward_rays, rays));
-}
-
-bool is_camera(const TraceContext& context, const ObserverBins& bins) {
-    return std::holds_alternative<Camera>(context.stage.parts().observers[bins.observer]);
 }
 
 // Kernels of caustics that sensors read.
@@ -139,32 +133,11 @@ void choose_radii(const TraceContext& context, const Settings& settings, Plan& p
                    min_forward_rays, at_least_min(plan.rays.per_phase())));
 }
 
-// Where the rays of sensors are scattered to.
-void guide_sensors(const TraceContext& context, const Settings& settings, Plan& plan) {
-    const auto& observers = context.readings.observers();
-    const Collection& collection = plan.collections.sensors;
-    if (!collection.reaches_second_event() ||
-        std::all_of(observers.begin(), observers.end(),
-                    [&](const auto& bins) { return is_camera(context, bins); })) {
-        return;
-    }
-    const Phase phase(context.stage, settings.seed, pilot_phase - pilot_phases - 7);
-    constexpr std::uint8_t indirect = mask(History::indirect);
-    const std::uint8_t wanted =
-        collection.sensor_gather ? indirect : indirect | mask(History::caustic);
-    ForwardTally unused(context.stage.parts());
-    const PilotPhotons pilot{trace_photons(phase, context, Emission(phase, RandomPurpose::pilot),
-                                           Reach::whole_path, wanted, rays_to_guide, unused),
-                             rays_to_guide};
-    scatter_to_arrivals(phase, context, seen_points(phase, context, settings), pilot, wanted,
-                        plan.rays);
-}
-
 // Blocks spread evenly over all images.
 std::vector<BinBlock> some_of_images(const TraceContext& context, const BackwardRays& rays) {
     std::vector<BinBlock> of_images;
     for (const BinBlock& block : rays.blocks()) {
-        if (is_camera(context, context.readings.observers()[block.observer_bins])) {
+        if (is_camera(context.stage.parts(), context.readings.observers()[block.observer_bins])) {
             of_images.push_back(block);
         }
     }
@@ -260,12 +233,13 @@ Plan make_plan(const TraceContext& context, const Settings& settings) {
     plan.observed = !plan.rays.blocks().empty();
     if (!plan.observed) return plan;
     choose_radii(context, settings, plan);
-    guide_sensors(context, settings, plan);
+    const Phase of_sensors(context.stage, settings.seed, pilot_phase - pilot_phases - 7);
+    prepare_sensors(of_sensors, context, settings, plan);
     if (settings.method == Method::automatic) choose_collection_of_images(context, settings, plan);
     const auto& observers = context.readings.observers();
     const bool only_cameras =
         std::all_of(observers.begin(), observers.end(),
-                    [&](const auto& bins) { return is_camera(context, bins); });
+                    [&](const auto& bins) { return is_camera(context.stage.parts(), bins); });
     if (only_cameras) plan.collections.sensors = plan.collections.cameras;
     look_at_kernels(context, settings, plan);
     if (!settings.samples_per_pixel) share_out_rays(context, settings, plan);

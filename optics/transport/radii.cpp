@@ -119,47 +119,60 @@ double radius_of_small_bias(const std::vector<Arrival>& photons, const std::vect
 // as the expectation of their product, whatever their noise. Narrow kernels tell little of it; but
 // it falls with the radius at least as fast as beside a kink, in proportion, so that what a wide
 // kernel shows bounds the narrower ones. A run has the light of many pilots, so that its noise
-// weighs less than that of one, 1 / photons; to 1 % it has the light of hundreds.
+// weighs less than that of one; to 1 % it has the light of hundreds.
+//
+// All errors are those of the irradiance at the points, not in shares of what a kernel holds: a
+// wide one beside bright light would be favoured for having much of that. Where the points are
+// brighter than what lies around, it is their own irradiance that a bias is a share of.
 double radius_of_least_error(const std::vector<Arrival>& one, const std::vector<Arrival>& other,
                              const std::vector<Vec3>& points, double limit_m, double accuracy) {
+    constexpr double enough_photons = 16.0;  // to tell the irradiance
     const double weight_of_noise = std::min(1.0 / 8.0, square(accuracy / 0.057));
-    std::vector<std::array<LightByRadius, 2>> of_points;
-    for (const Vec3& point : points) {
-        of_points.push_back(
-            {light_around(point, one, limit_m), light_around(point, other, limit_m)});
-    }
     struct Step {
+        double area = 0.0;         // of the kernel, over that of the widest
         double photons = 0.0;      // in both kernels of a point
-        double bias_square = 0.0;  // relative to the light
+        double bias_square = 0.0;  // of the flux of one
+        double irradiance() const { return 0.5 * photons / area; }
     };
-    std::vector<Step> steps;
+    std::vector<Step> steps(radius_steps);
     for (std::size_t i = 0; i < radius_steps; ++i) {
-        Step step;
-        double light_square = 0.0;
-        for (const auto& [a, b] : of_points) {
-            step.bias_square +=
-                4.0 * (a.flux[i] - 2.0 * a.flux[i + 1]) * (b.flux[i] - 2.0 * b.flux[i + 1]);
-            light_square += a.flux[i] * b.flux[i];
-            step.photons += (a.flux[i] + b.flux[i]) / static_cast<double>(points.size());
+        steps[i].area = std::ldexp(1.0, -static_cast<int>(i));
+    }
+    const double share = 1.0 / static_cast<double>(points.size());
+    for (const Vec3& point : points) {
+        const LightByRadius a = light_around(point, one, limit_m);
+        const LightByRadius b = light_around(point, other, limit_m);
+        for (std::size_t i = 0; i < radius_steps; ++i) {
+            steps[i].photons += share * (a.flux[i] + b.flux[i]);
+            steps[i].bias_square +=
+                share * 4.0 * (a.flux[i] - 2.0 * a.flux[i + 1]) * (b.flux[i] - 2.0 * b.flux[i + 1]);
         }
-        if (!(light_square > 0.0)) break;
-        step.bias_square /= light_square;
-        steps.push_back(step);
+    }
+    if (!(steps[0].photons > 0.0)) return 0.0;
+    double at_points = 0.0;
+    for (const Step& step : steps) {
+        if (step.photons >= enough_photons) at_points = step.irradiance();
     }
     double best_m = 0.0;
     double least = infinity;
     double bound = infinity;  // of the square of the bias
     double radius_m = limit_m;
-    for (std::size_t i = 0; i < steps.size(); ++i, radius_m /= std::numbers::sqrt2) {
+    for (const Step& step : steps) {
         // Half a standard deviation of the product, if photons are random, is taken for luck: it is
         // far above what noise adds to the error, and would else narrow kernels without a reason.
-        const double of_luck = 4.0 / steps[i].photons;
-        bound = std::min(0.5 * bound, std::max(0.0, steps[i].bias_square - of_luck));
-        const double error = weight_of_noise * 2.0 / steps[i].photons + bound;
+        const double of_luck = step.photons;
+        const double shown = std::max(0.0, step.bias_square - of_luck) / square(step.area);
+        const double brighter =
+            step.photons > 0.0 ? std::max(1.0, at_points / step.irradiance()) : 1.0;
+        bound = std::min(0.5 * bound, square(brighter) * shown);
+        // A kernel without photons is not known to have no noise.
+        const double variance = 0.5 * std::max(1.0, step.photons) / square(step.area);
+        const double error = weight_of_noise * variance + bound;
         if (error < least) {
             least = error;
             best_m = radius_m;
         }
+        radius_m /= std::numbers::sqrt2;
     }
     return best_m;
 }

@@ -17,6 +17,10 @@ struct ObserverBins {
     std::size_t count;
 };
 
+inline bool is_camera(const SceneParts& parts, const ObserverBins& bins) {
+    return std::holds_alternative<Camera>(parts.observers[bins.observer]);
+}
+
 /// What all bins read in one phase; different bins may be written by different threads at the same
 /// time.
 class PhaseReadings {

@@ -24,14 +24,18 @@ struct OnePoint {
 
     /// Photons at random in a square around the point, as dense as `photons` in the unit disk;
     /// those farther than the edge are missing.
-    PilotPhotons pilot(std::uint32_t number, double photons, double edge_m) const {
+    /// @param bright_outside  those within the edge are missing instead, but for one in a hundred.
+    PilotPhotons pilot(std::uint32_t number, double photons, double edge_m,
+                       bool bright_outside = false) const {
         PilotPhotons result{{}, 1000};
         const auto count = static_cast<std::uint32_t>(photons * 4.0 / pi);
         for (std::uint32_t i = 0; i < count; ++i) {
             RandomStream random(1, number, RandomPurpose::test, i);
             const double x = 2.0 * random.uniform() - 1.0;
             const Vec3 at(x, 2.0 * random.uniform() - 1.0, 0.0);
-            if (at.norm() > edge_m) continue;
+            // A dark place keeps one in a hundred.
+            const bool dark = bright_outside ? at.norm() < edge_m && i % 100 : at.norm() > edge_m;
+            if (dark) continue;
             result.photons.push_back({{at, Vec3::UnitZ(), no_object, 0, 0},
                                       -Vec3::UnitZ(),
                                       Lanes::Ones(),
@@ -40,12 +44,12 @@ struct OnePoint {
         return result;
     }
 
-    double radius_m(double edge_m, double photons = 20000.0) const {
+    double radius_m(double edge_m, double photons = 20000.0, bool bright_outside = false) const {
         const Radii narrow(std::vector<double>(stage.patch_count() + 1, 1e-3));
         const SurfacePoint point{Vec3::Zero(), Vec3::UnitZ(), no_object, 0, 0};
         const std::vector<ReadPoint> points{{point, 0}};
-        return widened_around(stage, planes, narrow, pilot(1, photons, edge_m),
-                              pilot(2, photons, edge_m), points, 0.02)
+        return widened_around(stage, planes, narrow, pilot(1, photons, edge_m, bright_outside),
+                              pilot(2, photons, edge_m, bright_outside), points, 0.02)
             .of_point(0);
     }
 };
@@ -61,6 +65,14 @@ TEST_CASE("A kernel of a sensor is as wide as light is even around it") {
         INFO("edge at " << edge_m << " m, radius " << room.radius_m(edge_m) << " m");
         CHECK(room.radius_m(edge_m) <= edge_m);
         CHECK(room.radius_m(edge_m) > 0.5 * edge_m);
+    }
+    // A dark place in bright light: a kernel that takes some of that in has more photons, but they
+    // are not those of the place.
+    for (const double edge_m : {0.6, 0.3}) {
+        const double radius_m = room.radius_m(edge_m, 20000.0, true);
+        INFO("bright beyond " << edge_m << " m, radius " << radius_m << " m");
+        CHECK(radius_m <= edge_m);
+        CHECK(radius_m > 0.35 * edge_m);
     }
     // Few photons tell no bias of a kernel; without any the radius stays as it was.
     CHECK(room.radius_m(infinity, 0.0) == 1e-3);

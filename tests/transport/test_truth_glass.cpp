@@ -8,6 +8,7 @@
 #include "tests/support/truth_checks.h"
 #include "validation/truth/luminance_weights.h"
 #include "validation/truth/quadrature.h"
+#include "validation/truth/sky_light.h"
 #include "validation/truth/slab.h"
 
 using namespace lucerna;
@@ -354,4 +355,59 @@ TEST_CASE("Glass in a furnace: illuminance in glass", "[analytic]") {
     INFO("ball " << static_cast<int>(ball) << " method " << static_cast<int>(method));
     test::check_truth_over_runs(runs[0], truth, 0.01);
     test::check_refutes_over_runs(runs[0], 0.9 * truth);
+}
+
+TEST_CASE("A pane before a lamp: illuminance, and luminance of paper", "[analytic]") {
+    // The lamp is wider than a square hole in a black sheet below the pane, so that what is seen
+    // through the hole is the luminance of the lamp and the transmittance of the pane.
+    constexpr double rho = 0.5, absorption_per_m = 5.0, pane_m = 0.02, half_m = 0.4, hole_z_m = 2.0;
+    SceneBuilder scene;
+    scene.area_light(
+        scene.object("lamp", Rectangle{{-2, -2, 2.2}, {0, 4, 0}, {4, 0, 0}}, scene.black()),
+        luminance);
+    Placement place = Placement::Identity();
+    place.translate(Vec3(-1.5, -1.5, 2.05));
+    scene.solid("pane", Box{place, {3.0, 3.0, pane_m}}, scene.medium(n, absorption_per_m));
+    const BsdfId black = scene.black();
+    const double rest_m = 3.0 - half_m;
+    for (const double side : {-1.0, 1.0}) {
+        const double first_m = side < 0.0 ? -3.0 : half_m;
+        scene.object("sheet", Rectangle{{first_m, -3.0, hole_z_m}, {rest_m, 0, 0}, {0, 6, 0}},
+                     black);
+        scene.object("sheet",
+                     Rectangle{{-half_m, first_m, hole_z_m}, {2.0 * half_m, 0, 0}, {0, rest_m, 0}},
+                     black);
+    }
+    scene.object("floor", Rectangle{{-3, -3, 0}, {6, 0, 0}, {0, 6, 0}}, black);
+    // What it sends back to the pane and receives again is 1e-4 of what it has.
+    const Vec3 paper(0.5, -0.3, 1e-3);
+    scene.object("paper", Rectangle{paper - Vec3(0.4, 0.4, 0.0), {0.8, 0, 0}, {0, 0.8, 0}},
+                 scene.diffuse(rho));
+    const std::vector<Vec3> points{{0, 0, 0}, {0.8, 0.4, 0}};
+    scene.points(points, Vec3::UnitZ());
+    scene.meter({0.8, -0.3, 0.5}, paper, 0.01);
+    // A camera wants the map of caustics, which the sensors then have to leave alone.
+    scene.camera({1, 1, 1}, paper, Vec3::UnitZ(), 0.1, 4, 4);
+    const auto illuminance = [&](const Vec3& x, bool polarised) {
+        return truth::illuminance_through(
+            [&](const Vec3& w) {
+                const double incidence_rad = std::acos(std::min(1.0, w.z()));
+                return luminance * (polarised ? polarised_transmittance(n, incidence_rad,
+                                                                        absorption_per_m * pane_m)
+                                              : 1.0);
+            },
+            {-half_m, -half_m, hole_z_m}, {2.0 * half_m, 0, 0}, {0, 2.0 * half_m, 0}, {}, x,
+            Vec3::UnitZ(), 8);
+    };
+    const Result result = test::run(scene, Method::combined, {400, 3000});
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3& x = i < 2 ? points[i] : paper;
+        const double factor = i < 2 ? 1.0 : rho / pi;
+        INFO("reading " << i);
+        test::check_truth(result.quantities[i].estimate, factor * illuminance(x, true));
+        test::check_refutes(result.quantities[i].estimate, factor * illuminance(x, false));
+        // Found by rays: a kernel beside the shadow of the sheet would be biased by a tenth.
+        CHECK(std::abs(result.quantities[i].estimate.bias()) <
+              1e-3 * factor * illuminance(x, true));
+    }
 }

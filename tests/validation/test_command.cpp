@@ -29,6 +29,12 @@ TEST_CASE("Daylight of a sky that is not uniform agrees with its truth", "[valid
               .exit_code == 0);
 }
 
+TEST_CASE("Daylight through a pane and past an overhang agrees with its truth", "[validation]") {
+    CHECK(run_program({"validate", "cie171/5.10-overcast", "cie171/5.13-depth-1", "--threads", "1",
+                       "--phases", "64"})
+              .exit_code == 0);
+}
+
 TEST_CASE("validate runs a case and writes table, data and page", "[validation]") {
     const io::TestFolder folder;
     const std::string results = folder / "results";

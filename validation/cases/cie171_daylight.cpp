@@ -283,7 +283,7 @@ Case glazed(const std::string& id, const std::string& title, std::size_t wall, c
             "E = int T L cos cos' / r^2 dA over the opening by Gauss-Legendre quadrature, T of the "
             "pane with s and p apart and all internal reflections",
             scene.parts,
-            effort(384, 100000),
+            effort(256, 2000),
             points.checks};
 }
 

@@ -40,11 +40,14 @@ PilotReadings read(const Phase& first, const TraceContext& context, const Plan& 
         if (!is_camera(context.stage.parts(), context.readings.observers()[block.observer_bins]))
             blocks.push_back(block);
     }
+    // Any scheduler decides alike.
+    TraceContext ordered = context;
+    ordered.scheduler = Scheduler::ordered;
     Readings readings = context.readings;
-    PhaseTrace trace(context);
+    PhaseTrace trace(ordered);
     for (std::uint32_t i = 1; i <= phases_to_compare; ++i) {
         const Phase phase(context.stage, first.seed, first.number - i);
-        trace_phase(phase, context, pilot, blocks, 0, trace);
+        trace_phase(phase, ordered, pilot, blocks, 0, trace);
         readings.fold(phase, trace.readings, context.threads);
     }
     return {readings.quantities(context.stage.parts()), trace.lights_found};

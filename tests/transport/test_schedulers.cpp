@@ -4,6 +4,7 @@
 #include "optics/transport/simulate.h"
 #include "tests/support/check_mean.h"
 #include "tests/support/cornell_scenes.h"
+#include "validation/scene_builder.h"
 
 using namespace lucerna;
 using namespace lucerna::optics;
@@ -59,4 +60,29 @@ TEST_CASE("Schedulers agree in the mean at 1, 2, 4 and 8 threads", "[statistical
     test::check_mean(image.mean(), image.standard_error(), 1.0, {0.03});
     test::check_mean(absorbed.mean(), absorbed.standard_error(), 1.0, {0.03});
     CHECK_FALSE(test::agrees(image.mean(), image.standard_error(), 1.03));
+}
+
+TEST_CASE("A sensor looks through a pane alike with every scheduler") {
+    validation::SceneBuilder scene;
+    scene.area_light(
+        scene.object("lamp", Rectangle{{-1, -1, 2}, {0, 2, 0}, {2, 0, 0}}, scene.black()), 1000.0);
+    Placement place = Placement::Identity();
+    place.translate(Vec3(-1.0, -1.0, 1.5));
+    scene.solid("pane", Box{place, {2.0, 2.0, 0.01}}, scene.medium(1.5));
+    scene.object("floor", Rectangle{{-1, -1, 0}, {2, 0, 0}, {0, 2, 0}}, scene.black());
+    scene.points({Vec3::Zero()}, Vec3::UnitZ());
+    const auto illuminance = [&](Scheduler scheduler) {
+        Settings settings;
+        settings.scheduler = scheduler;
+        settings.threads = 2;
+        settings.max_phases = 4;
+        return simulate(scene.parts, settings).quantities[0].estimate;
+    };
+    const Estimate ordered = illuminance(Scheduler::ordered);
+    CHECK(ordered.bias() == 0.0);  // no kernel
+    CHECK(ordered.standard_error() < 0.02 * ordered.mean());
+    for (const Scheduler other :
+         {Scheduler::synchronous, Scheduler::asynchronous, Scheduler::two_level}) {
+        CHECK(std::abs(illuminance(other).mean() / ordered.mean() - 1.0) < 1e-6);
+    }
 }

@@ -19,6 +19,7 @@ struct Arrival {
     double u1, u2;  // that sample_cosine_hemisphere() makes its direction of
     double flux;
     bool above;
+    std::uint32_t caustic_of;  // light, or no_light
 };
 
 SquareDensity density_of(std::size_t side, std::span<const Arrival> arrivals) {
@@ -52,10 +53,14 @@ SquareDensity learned(std::span<const Arrival> arrivals) {
 }
 
 // From the photons nearest to a point, of all that arrive on its patch.
-SquareDensity learned_around(const Vec3& point, bool above, std::span<const Arrival> on_patch) {
+// @param looks_for  lights, see BinRays.
+SquareDensity learned_around(const Vec3& point, bool above, std::span<const Arrival> on_patch,
+                             const std::vector<bool>& looks_for) {
     std::vector<Arrival> near;
     for (const Arrival& arrival : on_patch) {
-        if (arrival.above == above) near.push_back(arrival);
+        const bool wanted =
+            arrival.caustic_of == no_light || (!looks_for.empty() && looks_for[arrival.caustic_of]);
+        if (wanted && arrival.above == above) near.push_back(arrival);
     }
     if (near.size() < least_photons) return {};
     if (near.size() > photons_per_point) {
@@ -69,19 +74,19 @@ SquareDensity learned_around(const Vec3& point, bool above, std::span<const Arri
     return learned(near);
 }
 
-std::vector<std::vector<Arrival>> arrivals_by_patch(
-    const Phase& phase, const TraceContext& context, const PilotPhotons& pilot,
-    const std::function<bool(const Photon&)>& wanted) {
+std::vector<std::vector<Arrival>> arrivals_by_patch(const Phase& phase, const TraceContext& context,
+                                                    const PilotPhotons& pilot) {
     std::vector<std::vector<Arrival>> arrivals(context.stage.patch_count() +
                                                context.planes.count());
     for (const Photon& photon : pilot.photons) {
-        if (!wanted(photon)) continue;
+        if (photon.history == History::direct) continue;
         const Frame frame = photon.point.object == no_object ? Frame(photon.point.normal)
                                                              : bsdf_frame(phase, photon.point);
         const Vec3 wi = frame.to_local(-photon.direction);
         const Vec2 u = numbers_of_disk_sample({wi.x(), wi.y()});
         arrivals[kernel_patch(context.stage, photon.point)].push_back(
-            {photon.point.position, u.x(), u.y(), phase.luminous(photon.flux), wi.z() > 0.0});
+            {photon.point.position, u.x(), u.y(), phase.luminous(photon.flux), wi.z() > 0.0,
+             photon.history == History::caustic ? photon.light : no_light});
     }
     return arrivals;
 }
@@ -89,9 +94,8 @@ std::vector<std::vector<Arrival>> arrivals_by_patch(
 }  // namespace
 
 void scatter_to_arrivals(const Phase& phase, const TraceContext& context, const SeenPoints& seen,
-                         const PilotPhotons& pilot,
-                         const std::function<bool(const Photon&)>& wanted, BackwardRays& rays) {
-    const auto arrivals = arrivals_by_patch(phase, context, pilot, wanted);
+                         const PilotPhotons& pilot, BackwardRays& rays) {
+    const auto arrivals = arrivals_by_patch(phase, context, pilot);
     const auto& observers = context.readings.observers();
     for (std::size_t i = 0; i < observers.size(); ++i) {
         const ObserverBins& bins = observers[i];
@@ -103,7 +107,9 @@ void scatter_to_arrivals(const Phase& phase, const TraceContext& context, const 
             for_each_block(densities.size(), context.threads, [&](std::size_t k) {
                 const auto& point = context.planes.point(bins.observer, k * bins_per_density);
                 const std::uint32_t patch = context.stage.patch_count() + point.plane;
-                densities[k] = {patch, true, learned_around(point.position, true, arrivals[patch])};
+                densities[k] = {
+                    patch, true,
+                    learned_around(point.position, true, arrivals[patch], rays.looks_for(i))};
             });
             rays.guide(i, std::move(densities), bins_per_density);
         } else if (std::holds_alternative<LuminanceMeter>(observer)) {
@@ -118,9 +124,11 @@ void scatter_to_arrivals(const Phase& phase, const TraceContext& context, const 
             const BackwardPhoton& vertex = *own[own.size() / 2];
             const std::uint32_t patch = kernel_patch(context.stage, vertex.point);
             const bool above = vertex.wo.z() > 0.0;
-            rays.guide(
-                i, {{patch, above, learned_around(vertex.point.position, above, arrivals[patch])}},
-                1);
+            rays.guide(i,
+                       {{patch, above,
+                         learned_around(vertex.point.position, above, arrivals[patch],
+                                        rays.looks_for(i))}},
+                       1);
         }
     }
 }

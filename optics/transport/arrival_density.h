@@ -14,9 +14,8 @@ namespace lucerna::optics {
 /// more than 4 times the usual.
 /// @param seen    tells where meters look.
 /// @param pilot   photons of independent rays.
-/// @param wanted  whether rays are scattered for the light of a photon.
+/// Of light that comes by way of specular events alone counts what the rays of a sensor look for.
 void scatter_to_arrivals(const Phase& phase, const TraceContext& context, const SeenPoints& seen,
-                         const PilotPhotons& pilot,
-                         const std::function<bool(const Photon&)>& wanted, BackwardRays& rays);
+                         const PilotPhotons& pilot, BackwardRays& rays);
 
 }  // namespace lucerna::optics

@@ -1,6 +1,7 @@
 // How many backward rays each bin gets in a phase, and with which kernels they gather.
 #pragma once
 
+#include <algorithm>
 #include <span>
 
 #include "optics/transport/readings.h"
@@ -35,6 +36,9 @@ struct BinRays {
     bool barriers;  ///< whether their kernels are looked through for barriers
     /// Where they are scattered to at their first event, if that is on the patch; else nullptr.
     const ArrivalDensity* arrivals;
+    /// Of each light: whether rays that the first event scatters count its emission behind specular
+    /// events, and its photons are left out of what is gathered there. nullptr: of none.
+    const std::vector<bool>* looks_for;
 };
 
 /// What the single rays of a bin read: the number of rays, and sums over them.
@@ -78,7 +82,8 @@ public:
                 own.first_path + static_cast<std::uint32_t>(bin) * own.most,
                 own.kernels.empty() ? 1.0 : double{own.kernels[bin].scale},
                 own.kernels.empty() ? own.looks_for_barriers : own.kernels[bin].barriers,
-                own.arrivals.empty() ? nullptr : &own.arrivals[bin / own.bins_per_arrivals]};
+                own.arrivals.empty() ? nullptr : &own.arrivals[bin / own.bins_per_arrivals],
+                own.looks_for.empty() ? nullptr : &own.looks_for};
     }
     const std::vector<BinBlock>& blocks() const { return blocks_; }
     std::uint64_t per_phase() const { return total_; }
@@ -113,6 +118,22 @@ public:
         observers_[observer_bins].bins_per_arrivals = bins_per_arrivals;
     }
 
+    /// Lets the rays of an observer look for lights behind specular events, see BinRays; an empty
+    /// list for none.
+    void look_for(std::size_t observer_bins, std::vector<bool> lights) {
+        observers_[observer_bins].looks_for = std::move(lights);
+    }
+    const std::vector<bool>& looks_for(std::size_t observer_bins) const {
+        return observers_[observer_bins].looks_for;
+    }
+    /// Whether all observers look for all lights, so that nobody gathers caustics.
+    bool look_for_all() const {
+        return std::ranges::all_of(observers_, [](const Shares& own) {
+            return !own.looks_for.empty() &&
+                   std::ranges::find(own.looks_for, false) == own.looks_for.end();
+        });
+    }
+
 private:
     struct Kernel {
         float scale = 1.0f;
@@ -128,6 +149,7 @@ private:
         std::vector<Kernel> kernels = {};     // of each bin; empty if nothing is known of them
         std::vector<ArrivalDensity> arrivals = {};  // each of some bins; empty if none is known
         std::size_t bins_per_arrivals = 1;
+        std::vector<bool> looks_for = {};
         bool looks_for_barriers = true;  // while nothing is known
         // Of an image only the pixels in the middles of tiles have rays.
         std::size_t tile = 1, width = 1;

@@ -20,15 +20,11 @@ public:
         : phase_(phase),
           collection_(is_camera(phase.stage.parts(), bins) ? collections.cameras
                                                            : collections.sensors),
-          found_(is_camera(phase.stage.parts(), bins) || collections.found_by_sensors.empty()
-                     ? nullptr
-                     : &collections.found_by_sensors),
           planes_(planes),
           maps_(maps),
           readings_(readings),
           tally_(tally),
           stored_(stored) {
-        if (found_) tally.lights_found.resize(found_->size());
         const Observer& observer = phase.stage.parts().observers[bins.observer];
         if (const auto* camera = std::get_if<Camera>(&observer)) {
             camera_rays_.emplace(*camera);
@@ -50,6 +46,7 @@ public:
             RandomStream(phase_.seed, phase_.number, RandomPurpose::strata, bin_).bits();
         rays_ = rays;
         if (rays.count == 0) return;
+        if (rays.looks_for) tally_.lights_found.resize(rays.looks_for->size());
         const std::uint32_t gathers = rays.count / rays.per_gather;
         seen_.clear();
         for (std::uint32_t ray = 0; ray < rays.count; ++ray) {
@@ -275,7 +272,7 @@ private:
         if (light == no_light) return;
         double weight = 1.0;
         if (scatterings_ > 0 && specular_since_) {
-            const bool found = scatterings_ == 1 && found_ && (*found_)[light];
+            const bool found = scatterings_ == 1 && rays_.looks_for && (*rays_.looks_for)[light];
             if (!found && !collection_.emission_behind_specular) return;  // the maps' part
             if (found) ++tally_.lights_found[light];
         } else if (scatterings_ > 0) {
@@ -288,7 +285,7 @@ private:
     }
 
     // Whether rays that the first event scatters are of use, but for emission seen straight.
-    bool goes_on_from_first() const { return collection_.second_deposit || found_; }
+    bool goes_on_from_first() const { return collection_.second_deposit || rays_.looks_for; }
 
     // Where a path need not go on but for emission that a scattered ray might find.
     LightSamples samples_of_lights(const GatherPoint& at) const {
@@ -392,7 +389,7 @@ private:
         if (caustic) {
             GatherPoint cut = at;
             if (region) cut.region = &*region;
-            cut.but_of = found_;
+            cut.but_of = rays_.looks_for;
             sum += maps_.caustic.gather(phase_, maps_.caustic_radii, cut);
         }
         if (indirect) {
@@ -423,7 +420,6 @@ private:
 
     const Phase& phase_;
     const Collection& collection_;
-    const std::vector<bool>* found_;  // lights, see Collections; nullptr: none
     const SensorPlanes& planes_;
     const ForwardMaps& maps_;
     PhaseReadings& readings_;

@@ -35,16 +35,13 @@ struct Collection {
 /// The collections of the two kinds of observers.
 struct Collections {
     Collection cameras, sensors;
-    /// Of each light: whether rays that sensors scatter at v = 1 count its emission behind specular
-    /// events; then sensors leave its photons in the forward map of caustics alone. None if empty.
-    std::vector<bool> found_by_sensors = {};
 
     bool deposits() const { return cameras.deposits() || sensors.deposits(); }
 };
 
 struct BackwardTally {
     std::uint64_t segments = 0, shadow_segments = 0;
-    std::vector<std::uint64_t> lights_found = {};  ///< behind specular events, if looked for
+    std::vector<std::uint64_t> lights_found = {};  ///< see BinRays::looks_for; empty: none
 };
 
 /// Traces the backward rays of a block of bins of an observer: adds visible emission, direct and

@@ -110,13 +110,7 @@ void deposit(const Phase& phase, const TraceContext& context, std::uint32_t rays
 
 bool Plan::gathers(const Stage& stage, const SensorPlanes& planes, History history) const {
     if (!observed || (history == History::caustic && !stage.has_caustics())) return false;
-    const std::vector<bool>& found = collections.found_by_sensors;
-    if (history == History::caustic && !found.empty() && std::ranges::count(found, false) == 0 &&
-        std::ranges::none_of(stage.parts().observers, [](const Observer& observer) {
-            return std::holds_alternative<Camera>(observer);
-        })) {
-        return false;  // sensors find all of it by themselves
-    }
+    if (history == History::caustic && rays.look_for_all()) return false;
     std::uint8_t wanted = collections.cameras.first_gather | collections.sensors.first_gather;
     if (planes.count() > 0) wanted |= collections.sensors.sensor_gather;
     return wanted & mask(history);
@@ -195,12 +189,15 @@ void trace_phase(const Phase& phase, const TraceContext& context, const Plan& pl
             plan.rays, blocks[i], context.planes, maps, trace.readings, backward_tallies[i]);
     });
     trace.counts.backward_s += backward_watch.seconds();
-    for (const BackwardTally& block : backward_tallies) {
+    trace.lights_found.resize(context.readings.observers().size());
+    for (std::size_t i = 0; i < blocks.size(); ++i) {
+        const BackwardTally& block = backward_tallies[i];
         trace.counts.backward_segments += block.segments;
         trace.counts.shadow_segments += block.shadow_segments;
-        trace.lights_found.resize(std::max(trace.lights_found.size(), block.lights_found.size()));
+        std::vector<std::uint64_t>& found = trace.lights_found[blocks[i].observer_bins];
+        found.resize(std::max(found.size(), block.lights_found.size()));
         for (std::size_t light = 0; light < block.lights_found.size(); ++light) {
-            trace.lights_found[light] += block.lights_found[light];
+            found[light] += block.lights_found[light];
         }
     }
     if (!secondary) return;

@@ -52,7 +52,7 @@ struct PhaseTrace {
     std::uint64_t balance_rays = 0;  ///< their number
     RayCounts counts;
     std::uint64_t forward_map_bytes = 0, backward_map_bytes = 0;
-    std::vector<std::uint64_t> lights_found;  ///< by rays of sensors behind specular events
+    std::vector<std::vector<std::uint64_t>> lights_found;  ///< [observer][light], see BinRays
 };
 
 /// Photons of the given histories, or-ed, of the rays of a forward trace, in the order of the rays.

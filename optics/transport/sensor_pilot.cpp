@@ -26,8 +26,8 @@ std::vector<bool> lights_with_surface(const Stage& stage) {
 // Readings of sensors over pilot phases, of light that comes by way of specular events and of what
 // the first scattered rays find else.
 struct PilotReadings {
-    std::vector<Quantity> quantities;
-    std::vector<std::uint64_t> lights_found;
+    std::vector<Quantity> quantities;                      // in the order of the bins of sensors
+    std::vector<std::vector<std::uint64_t>> lights_found;  // [observer][light]
 };
 
 PilotReadings read(const Phase& first, const TraceContext& context, const Plan& plan) {
@@ -37,8 +37,9 @@ PilotReadings read(const Phase& first, const TraceContext& context, const Plan& 
     pilot.secondary_rays = forward_rays_per_block;
     std::vector<BinBlock> blocks;
     for (const BinBlock& block : plan.rays.blocks()) {
-        if (!is_camera(context.stage.parts(), context.readings.observers()[block.observer_bins]))
+        if (!is_camera(context.stage.parts(), context.readings.observers()[block.observer_bins])) {
             blocks.push_back(block);
+        }
     }
     // Any scheduler decides alike.
     TraceContext ordered = context;
@@ -53,14 +54,15 @@ PilotReadings read(const Phase& first, const TraceContext& context, const Plan& 
     return {readings.quantities(context.stage.parts()), trace.lights_found};
 }
 
-// Sums over the sensors of the relative variances.
-std::array<double, 2> variances(const PilotReadings& one, const PilotReadings& other) {
+// Sums over some readings of the relative variances of both.
+std::array<double, 2> variances(const PilotReadings& one, const PilotReadings& other,
+                                std::size_t first, std::size_t count) {
     std::array<double, 2> sums{};
-    for (std::size_t i = 0; i < one.quantities.size(); ++i) {
+    for (std::size_t i = first; i < first + count; ++i) {
         const Estimate& a = one.quantities[i].estimate;
         const Estimate& b = other.quantities[i].estimate;
         const double value_square = square(0.5 * (a.mean() + b.mean()));
-        if (!(value_square > 0.0) || a.count() < 2 || b.count() < 2) continue;
+        if (!(value_square > 0.0)) continue;
         sums[0] += square(a.standard_error()) / value_square;
         sums[1] += square(b.standard_error()) / value_square;
     }
@@ -72,11 +74,13 @@ std::array<double, 2> variances(const PilotReadings& one, const PilotReadings& o
 void prepare_sensors(const Phase& first, const TraceContext& context, const Settings& settings,
                      Plan& plan) {
     const Stage& stage = context.stage;
-    std::uint64_t bins_of_sensors = 0;
-    for (const ObserverBins& bins : context.readings.observers()) {
-        if (!is_camera(context.stage.parts(), bins)) bins_of_sensors += bins.count;
+    const auto& observers = context.readings.observers();
+    std::vector<std::size_t> sensors;
+    for (std::size_t i = 0; i < observers.size(); ++i) {
+        if (!is_camera(stage.parts(), observers[i])) sensors.push_back(i);
     }
-    if (bins_of_sensors == 0 || !plan.collections.sensors.reaches_second_event()) return;
+    const Collection& collection = plan.collections.sensors;
+    if (sensors.empty() || !collection.reaches_second_event()) return;
 
     ForwardTally unused(stage.parts());
     const std::uint8_t histories = mask(History::indirect) | mask(History::caustic);
@@ -84,43 +88,42 @@ void prepare_sensors(const Phase& first, const TraceContext& context, const Sett
                                              Reach::whole_path, histories, rays_to_guide, unused),
                                rays_to_guide};
     const SeenPoints seen = seen_points(first, context, settings);
-    const auto scatter_for = [&](const std::vector<bool>& behind_specular) {
-        scatter_to_arrivals(
-            first, context, seen, photons,
-            [&](const Photon& photon) {
-                return photon.history == History::indirect ||
-                       (!behind_specular.empty() && behind_specular[photon.light]);
-            },
-            plan.rays);
-    };
-    std::vector<bool> lights = lights_with_surface(stage);
-    const auto any = [&] { return std::ranges::count(lights, true) > 0; };
-    const Collection& collection = plan.collections.sensors;
-    if (!plan.gathers(stage, context.planes, History::caustic) || !collection.second_direct) {
-        return scatter_for(collection.emission_behind_specular ? lights : std::vector<bool>{});
+    const auto scatter = [&] { scatter_to_arrivals(first, context, seen, photons, plan.rays); };
+    const std::vector<bool> lights = lights_with_surface(stage);
+    if (!plan.gathers(stage, context.planes, History::caustic) || !collection.second_direct ||
+        std::ranges::find(lights, true) == lights.end()) {
+        return scatter();
     }
     const PilotReadings by_maps = read(first, context, plan);
-    PilotReadings by_rays;
-    bool all_are_found = false;
-    while (any() && !all_are_found) {
-        scatter_for(lights);
-        plan.collections.found_by_sensors = lights;
-        by_rays = read(first, context, plan);
-        all_are_found = true;
+    for (const std::size_t i : sensors) plan.rays.look_for(i, lights);
+    scatter();
+    PilotReadings by_rays = read(first, context, plan);
+    // Without the lights that are seldom found.
+    bool all_are_found = true;
+    for (const std::size_t i : sensors) {
+        std::vector<bool> often = lights;
         for (std::size_t light = 0; light < lights.size(); ++light) {
-            if (!lights[light] ||
-                by_rays.lights_found[light] >= least_found_per_bin * bins_of_sensors) {
-                continue;
+            if (by_rays.lights_found[i][light] < least_found_per_bin * observers[i].count) {
+                often[light] = false;
             }
-            lights[light] = all_are_found = false;
         }
+        if (often == lights) continue;
+        all_are_found = false;
+        plan.rays.look_for(
+            i, std::ranges::find(often, true) == often.end() ? std::vector<bool>{} : often);
     }
-    if (any()) {
-        const auto [variance_of_maps, variance_of_rays] = variances(by_maps, by_rays);
-        if (variance_of_rays <= 2.0 * variance_of_maps) return;
+    if (!all_are_found) {
+        scatter();
+        by_rays = read(first, context, plan);
     }
-    plan.collections.found_by_sensors.clear();
-    scatter_for({});
+    std::size_t first_reading = 0;
+    for (const std::size_t i : sensors) {
+        const auto [of_maps, of_rays] =
+            variances(by_maps, by_rays, first_reading, observers[i].count);
+        if (of_rays > 2.0 * of_maps) plan.rays.look_for(i, {});
+        first_reading += observers[i].count;
+    }
+    scatter();
 }
 
 }  // namespace lucerna::optics

@@ -9,9 +9,9 @@ namespace {
 
 constexpr std::uint32_t rays_to_guide = 1 << 16;
 constexpr std::uint32_t phases_to_compare = 4;
-// Lights that are found so often by the rays of a sensor bin in all pilot phases together are found
-// often enough by those of a run: a single ray then never weighs much.
-constexpr std::uint64_t least_found_per_bin = 32;
+// Rays of a sensor per one that finds a light: one that is seldom found is better gathered, as each
+// ray that does find it weighs much, and a few pilot phases do not tell how much.
+constexpr std::uint64_t most_rays_per_find = 64;
 
 // Those with a surface that a ray can meet.
 std::vector<bool> lights_with_surface(const Stage& stage) {
@@ -101,9 +101,13 @@ void prepare_sensors(const Phase& first, const TraceContext& context, const Sett
     // Without the lights that are seldom found.
     bool all_are_found = true;
     for (const std::size_t i : sensors) {
+        std::uint64_t rays = 0;
+        for (std::size_t bin = 0; bin < observers[i].count; ++bin) {
+            rays += phases_to_compare * plan.rays.of(i, bin).count;
+        }
         std::vector<bool> often = lights;
         for (std::size_t light = 0; light < lights.size(); ++light) {
-            if (by_rays.lights_found[i][light] < least_found_per_bin * observers[i].count) {
+            if (most_rays_per_find * by_rays.lights_found[i][light] < rays) {
                 often[light] = false;
             }
         }

@@ -13,8 +13,8 @@ namespace lucerna::optics {
 /// likelihood). Three in ten rays follow the cosine whatever was learned, so that none weighs
 /// more than 4 times the usual.
 /// @param seen    tells where meters look.
-/// @param pilot   photons of independent rays.
-/// Of light that comes by way of specular events alone counts what the rays of a sensor look for.
+/// @param pilot   photons of independent rays; of those that came by specular events alone count
+///                the ones of lights that the rays of a sensor look for.
 void scatter_to_arrivals(const Phase& phase, const TraceContext& context, const SeenPoints& seen,
                          const PilotPhotons& pilot, BackwardRays& rays);
 

@@ -5,9 +5,6 @@
 namespace lucerna::optics {
 namespace {
 
-constexpr std::uint8_t all_light =
-    mask(History::direct) | mask(History::caustic) | mask(History::indirect);
-
 // A branch that carries less of its path goes on by choosing one event at random.
 constexpr double least_importance_to_branch = 0.02;
 
@@ -457,42 +454,6 @@ private:
 };
 
 }  // namespace
-
-Collection Collection::of(Method method, PlantedError planted) {
-    constexpr std::uint8_t caustic = mask(History::caustic);
-    constexpr std::uint8_t mapped = caustic | mask(History::indirect);
-    Collection collection;
-    switch (method) {
-        case Method::automatic:
-        case Method::combined:
-            collection.first_gather = collection.sensor_gather = caustic;
-            collection.second_direct = true;
-            collection.second_deposit = mapped;
-            break;
-        case Method::forward:
-            collection.first_gather = collection.sensor_gather = mapped;
-            break;
-        case Method::backward:
-            collection.sensor_gather = caustic;
-            collection.first_deposit = caustic;
-            collection.second_deposit = all_light;
-            break;
-        case Method::path:
-            collection.whole_path = true;
-            collection.emission_behind_specular = true;
-            break;
-    }
-    if (planted == PlantedError::double_count) collection.emission_behind_specular = true;
-    if (planted == PlantedError::gap) {
-        collection.second_direct = false;
-        collection.second_deposit &= mapped;
-    }
-    return collection;
-}
-
-Collection Collection::merged_where_seen() {
-    return of(Method::forward, PlantedError::none);
-}
 
 std::vector<BackwardPhoton> trace_backward(const Phase& phase, const Collections& collections,
                                            const ObserverBins& bins, const BackwardRays& rays,

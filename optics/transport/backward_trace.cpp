@@ -74,8 +74,9 @@ public:
 private:
     void trace(const ObserverBins& bins, std::size_t bin, std::uint32_t sample,
                StratifiedStream& random) {
-        scatterings_ = 0;
+        scatterings_ = counted_ = 0;
         specular_since_ = false;
+        straight_ = true;
         path_.start.object = no_object;
         path_.media = media_of_observer_;
         path_.weight = Lanes::Constant(1.0f / static_cast<float>(rays_.count));
@@ -92,7 +93,9 @@ private:
             if (branches_.empty()) return;
             path_ = branches_.back().path;
             importance_ = branches_.back().importance;
-            scatterings_ = 0;
+            scatterings_ = counted_ = 0;
+            specular_since_ = true;
+            straight_ = false;
             branches_.pop_back();
         }
     }
@@ -163,7 +166,8 @@ private:
         if (rays_.arrivals) scatter_to_arrivals(u1, u2);
         const Vec3 wi = sample_cosine_hemisphere(u1, u2);
         path_.ray = {position, Frame(points.normal).to_world(wi)};
-        scattered_at(position, wi.z() / pi);
+        ++counted_;
+        scattered_at(position, wi.z() / pi, true);
         return true;
     }
 
@@ -180,21 +184,23 @@ private:
             pass(path_, *encounter);
             return true;
         }
-        const bool collected = scatterings_ > 0 && !collection_.whole_path;
-        if (collected && (scatterings_ > 1 || !goes_on_from_first())) return false;
+        const bool collected = counted_ > 0 && !collection_.whole_path;
+        if (collected && (counted_ > 1 || !goes_on_from_first())) return false;
 
         const Bsdf& bsdf = stage.parts().bsdfs[encounter->bsdf];
         const SurfaceOptics optics = optics_at(phase_, *encounter, path_);
+        const bool passes_on = stage.is_glossy(encounter->bsdf) &&
+                               (counted_ > 0 || !collection_.reaches_second_event());
+        const bool lit = !collected || collection_.second_direct;
         if (stage.scatters(encounter->bsdf)) {
             const GatherPoint at{encounter->point, encounter->frame, encounter->wo, bsdf, optics};
-            if (scatterings_ == 0) {
-                gather_where_seen(at);
-                if (collection_.first_deposit) store(*encounter, collection_.first_deposit);
+            const std::uint8_t here = passes_on ? ~mask(History::indirect) : ~0;
+            if (counted_ == 0) {
+                gather_where_seen(at, collection_.first_gather & here);
+                store(*encounter, collection_.first_deposit & here);
+            } else if (collected) {
+                store(*encounter, collection_.second_deposit & here);
             }
-            if (collected && collection_.second_deposit) {
-                store(*encounter, collection_.second_deposit);
-            }
-            const bool lit = !collected || collection_.second_direct;
             if (lit && add_direct_light(*encounter, at, random) == LightSamples::alone) {
                 return false;
             }
@@ -215,14 +221,20 @@ private:
             sample(bsdf, optics, encounter->wo, u_lobe, u1, u2, Transport::radiance);
         if (!sampled) return false;
         // Beyond the second event a ray is followed for the emission that it might find.
-        if (collected && !sampled->specular && !collection_.second_direct) return false;
+        if (collected && !passes_on && !sampled->specular && !lit) return false;
         const bool turned_hero = sampled->hero_only && !path_.hero_only;
         const Lanes factors = sampled->weight * encounter->transmittance;
         follow(path_, *encounter, *sampled);
         if (sampled->specular) {
             specular_since_ = true;
+            straight_ = false;
         } else {
-            scattered_at(encounter->point.position, sampled->pdf_solid_angle);
+            if (passes_on) {
+                straight_ = false;
+            } else {
+                ++counted_;
+            }
+            scattered_at(encounter->point.position, sampled->pdf_solid_angle, lit);
         }
         float factor = live_max(path_, factors);
         if (turned_hero) factor /= spectral::lane_count;
@@ -257,9 +269,10 @@ private:
         importance_ *= one->probability;
     }
 
-    void scattered_at(const Vec3& position, double pdf) {
+    void scattered_at(const Vec3& position, double pdf, bool lit) {
         ++scatterings_;
         specular_since_ = false;
+        lit_ = lit;
         scattered_from_ = position;
         scattered_pdf_ = pdf;
     }
@@ -273,6 +286,7 @@ private:
             if (!found && !collection_.emission_behind_specular) return;  // the maps' part
             if (found) ++tally_.lights_found[light];
         } else if (scatterings_ > 0) {
+            if (!lit_) return;  // the maps' part, too
             weight =
                 emission_weight(phase_, light, scattered_from_, encounter.point, scattered_pdf_);
         }
@@ -286,7 +300,7 @@ private:
 
     // Where a path need not go on but for emission that a scattered ray might find.
     LightSamples samples_of_lights(const GatherPoint& at) const {
-        const bool ends = !collection_.whole_path && (scatterings_ > 0 || !goes_on_from_first());
+        const bool ends = !collection_.whole_path && (counted_ > 0 || !goes_on_from_first());
         return ends && lights_suffice(phase_.stage, at.bsdf, at.point.position)
                    ? LightSamples::alone
                    : LightSamples::weighed;
@@ -297,7 +311,7 @@ private:
         const bool above = encounter.wo.z() > 0.0;
         const LightSamples samples = samples_of_lights(at);
         const ShadowRays shadow_rays =
-            scatterings_ > 0 && !collection_.whole_path ? ShadowRays::of_one : ShadowRays::of_all;
+            counted_ > 0 && !collection_.whole_path ? ShadowRays::of_one : ShadowRays::of_all;
         readings_.add(
             phase_, bin_,
             path_.weight * direct_light(phase_, at, &encounter.point,
@@ -308,12 +322,11 @@ private:
     }
 
     // What a ray of a bin finds on a patch stands for the next ones as well that come to the patch
-    // straight and with the same weight. Behind specular events the rays of a bin spread widely and
+    // straight and with the same weight. Behind other events the rays of a bin spread widely and
     // their weights differ: there a share of them gathers, chosen beforehand.
-    void gather_where_seen(const GatherPoint& at) {
-        const std::uint8_t histories = collection_.first_gather;
+    void gather_where_seen(const GatherPoint& at, std::uint8_t histories) {
         if (path_.hero_only) return gather(at, histories, path_.weight);
-        if (specular_since_) {
+        if (!straight_) {
             if (specular_gather_weight_ > 0.0f) {
                 gather(at, histories, specular_gather_weight_ * path_.weight);
             }
@@ -386,7 +399,7 @@ private:
         if (caustic) {
             GatherPoint cut = at;
             if (region) cut.region = &*region;
-            cut.but_of = rays_.looks_for;
+            if (scatterings_ == 0) cut.but_of = rays_.looks_for;
             sum += maps_.caustic.gather(phase_, maps_.caustic_radii, cut);
         }
         if (indirect) {
@@ -403,6 +416,7 @@ private:
     }
 
     void store(const Encounter& encounter, std::uint8_t accepts) {
+        if (!accepts) return;
         stored_.push_back({.point = encounter.point,
                            .wo = encounter.wo,
                            .throughput = path_.weight,
@@ -448,7 +462,10 @@ private:
     float specular_gather_weight_ = 1.0f;  // 0: the ray does not gather behind specular events
     double importance_ = 1.0;  // share of the path's weight that its branches left to it
     int scatterings_ = 0;
+    int counted_ = 0;  // of them, those that do not just pass the path on: v of Collection
+    bool lit_ = true;  // direct light was sampled at the last scattering event
     bool specular_since_ = false;  // the last scattering event
+    bool straight_ = true;         // no event yet: all rays of the bin come this way
     Vec3 scattered_from_ = Vec3::Zero();
     double scattered_pdf_ = 0.0;
 };

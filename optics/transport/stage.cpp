@@ -118,6 +118,8 @@ Stage::Stage(const SceneParts& parts, std::optional<bool> polarisation)
         }));
     for (const Bsdf& bsdf : parts_.bsdfs) {
         scatters_.push_back(has_scattering_lobe(bsdf, parts_.bsdfs));
+        is_glossy_.push_back(std::holds_alternative<RoughConductor>(bsdf) ||
+                             std::holds_alternative<RoughDielectric>(bsdf));
         is_specular_.push_back(has_specular_lobe(bsdf, parts_.bsdfs));
     }
     patch_offset_.push_back(0);

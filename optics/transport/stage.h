@@ -42,6 +42,9 @@ public:
     /// The virtual surface of illuminance points: Lambertian, reflectance 1.
     BsdfId white_diffuser() const { return white_diffuser_; }
     bool scatters(BsdfId bsdf) const { return scatters_[bsdf]; }
+    /// Whether all that the BSDF scatters keeps near specular directions (rough metals and
+    /// boundaries): few photons around a point are of use to a ray that comes there.
+    bool is_glossy(BsdfId bsdf) const { return is_glossy_[bsdf]; }
     /// Whether the BSDF has a specular lobe.
     bool is_specular(BsdfId bsdf) const { return is_specular_[bsdf]; }
     /// True if light can reach a scattering surface by specular events only: else no caustic map.
@@ -69,7 +72,7 @@ private:
     std::vector<Sphere> unevenly_sampled_;
     std::vector<std::uint32_t> patch_offset_;  // one more than objects
     std::vector<double> patch_areas_m2_;
-    std::vector<bool> scatters_, is_specular_;
+    std::vector<bool> scatters_, is_glossy_, is_specular_;
     std::vector<std::pair<ObjectId, Eigen::AlignedBox3d>> solids_;  // objects with an interior
     BsdfId white_diffuser_ = 0;
     bool has_caustics_ = false;

@@ -36,25 +36,31 @@ double median_square_distance(const std::vector<Arrival>& points) {
     return probes[probes.size() / 2];
 }
 
-// Flux within limit_m, limit_m / sqrt 2, limit_m / 2, ... of a point, and the sum of its squares.
+// Flux within limit_m, limit_m / sqrt 2, limit_m / 2, ... of a point, the sum of its squares, and
+// its first moment about the point, in units of the limit.
 constexpr std::size_t radius_steps = 32;  // the last is 2e-5 of the first
 struct LightByRadius {
+    LightByRadius() { moment.fill(Vec3::Zero()); }
     std::array<double, radius_steps + 1> flux{}, squares{};
+    std::array<Vec3, radius_steps + 1> moment;
 };
 
 LightByRadius light_around(const Vec3& point, const std::vector<Arrival>& photons, double limit_m) {
     LightByRadius light;
     for (const Arrival& photon : photons) {
-        const double square = (photon.position - point).squaredNorm() / (limit_m * limit_m);
+        const Vec3 way = (photon.position - point) / limit_m;
+        const double square = way.squaredNorm();
         if (square >= 1.0 || square == 0.0) continue;  // a photon is no evidence about itself
         const auto step =
             static_cast<std::size_t>(std::min(-std::log2(square), double{radius_steps}));
         light.flux[step] += photon.flux;
         light.squares[step] += photon.flux * photon.flux;
+        light.moment[step] += photon.flux * way;
     }
     for (std::size_t i = radius_steps; i > 0; --i) {
         light.flux[i - 1] += light.flux[i];
         light.squares[i - 1] += light.squares[i];
+        light.moment[i - 1] += light.moment[i];
     }
     return light;
 }
@@ -115,11 +121,16 @@ double radius_of_small_bias(const std::vector<Arrival>& photons, const std::vect
     return radius_m;
 }
 
-// The radius of least error at the points. Two independent measurements of the bias have its square
-// as the expectation of their product, whatever their noise. Narrow kernels tell little of it; but
-// it falls with the radius at least as fast as beside a kink, in proportion, so that what a wide
-// kernel shows bounds the narrower ones. A run has the light of many pilots, so that its noise
-// weighs less than that of one; to 1 % it has the light of hundreds.
+// The radius of least error at the points, 0 without photons. Two independent measurements of the
+// bias have its square as the expectation of their product, whatever their noise. Narrow kernels
+// tell little of it; but it falls with the radius at least as fast as beside a kink, in proportion,
+// so that what a wide kernel shows bounds the narrower ones. A run has the light of many pilots, so
+// that its noise weighs less than that of one; to 1 % it has the light of hundreds.
+//
+// A step that runs through the middle of a kernel shows at no two radii, though the point beside it
+// is off by half of its height h. But it makes the light lopsided: with r the radius, its first
+// moment is h r^3 2 / 3. A steady slope does that as well and has no bias, so that only a fifth of
+// what the moment might mean counts.
 //
 // All errors are those of the irradiance at the points, not in shares of what a kernel holds: a
 // wide one beside bright light would be favoured for having much of that. Where the points are
@@ -127,11 +138,15 @@ double radius_of_small_bias(const std::vector<Arrival>& photons, const std::vect
 double radius_of_least_error(const std::vector<Arrival>& one, const std::vector<Arrival>& other,
                              const std::vector<Vec3>& points, double limit_m, double accuracy) {
     constexpr double enough_photons = 16.0;  // to tell the irradiance
+    // Of a kernel's flux, if all of the moment over its radius is that of a step: h / 2 pi r^2.
+    constexpr double error_per_moment = 0.75 * pi;
+    constexpr double share_of_steps = 0.2;
     const double weight_of_noise = std::min(1.0 / 8.0, square(accuracy / 0.057));
     struct Step {
         double area = 0.0;         // of the kernel, over that of the widest
         double photons = 0.0;      // in both kernels of a point
         double bias_square = 0.0;  // of the flux of one
+        double step_square = 0.0;  // of its moment over its radius
         double irradiance() const { return 0.5 * photons / area; }
     };
     std::vector<Step> steps(radius_steps);
@@ -146,6 +161,7 @@ double radius_of_least_error(const std::vector<Arrival>& one, const std::vector<
             steps[i].photons += share * (a.flux[i] + b.flux[i]);
             steps[i].bias_square +=
                 share * 4.0 * (a.flux[i] - 2.0 * a.flux[i + 1]) * (b.flux[i] - 2.0 * b.flux[i + 1]);
+            steps[i].step_square += share * a.moment[i].dot(b.moment[i]) / steps[i].area;
         }
     }
     if (!(steps[0].photons > 0.0)) return 0.0;
@@ -167,7 +183,11 @@ double radius_of_least_error(const std::vector<Arrival>& one, const std::vector<
         bound = std::min(0.5 * bound, square(brighter) * shown);
         // A kernel without photons is not known to have no noise.
         const double variance = 0.5 * std::max(1.0, step.photons) / square(step.area);
-        const double error = weight_of_noise * variance + bound;
+        // Less one standard deviation of a product of moments, if photons are random.
+        const double lucky_step = std::numbers::sqrt2 / 8.0 * step.photons;
+        const double of_step = std::max(0.0, step.step_square - lucky_step) *
+                               square(share_of_steps * error_per_moment / step.area);
+        const double error = weight_of_noise * variance + bound + of_step;
         if (error < least) {
             least = error;
             best_m = radius_m;
@@ -250,10 +270,13 @@ Radii widened_around(const Stage& stage, const SensorPlanes& planes, const Radii
     const auto of_other = arrivals_by_patch(stage, planes, other);
     std::vector<double> widened;
     for (std::uint32_t patch = 0; patch < of_one.size(); ++patch) widened.push_back(radii[patch]);
+    // They had few photons, and may have half of that radius where wider ones are biased.
+    constexpr double least = 0.5;
     const auto of_least_error = [&](std::uint32_t patch, const std::vector<Vec3>& positions,
                                     double limit_m) {
-        return std::max(radii[patch], radius_of_least_error(of_one[patch], of_other[patch],
-                                                            positions, limit_m, accuracy));
+        const double radius_m =
+            radius_of_least_error(of_one[patch], of_other[patch], positions, limit_m, accuracy);
+        return radius_m > 0.0 ? std::max(least * radii[patch], radius_m) : radii[patch];
     };
     // No kernel reaches the wall beside its point, so that the search starts there.
     std::vector<double> clearances_m(planes.point_count());

@@ -67,10 +67,11 @@ Radii narrow_radii(const Stage& stage, const SensorPlanes& planes, const PilotPh
 /// and the bias allow.
 Radii wide_radii(const Stage& stage, const SensorPlanes& planes, const PilotPhotons& pilot);
 
-/// The same with wider kernels around points that are to be read with little error: as wide as
-/// makes the sum of the squares of noise and bias least; on surfaces in the mean over the points of
-/// a patch, on sensor planes at each point by itself. Two pilots that are independent of each other
-/// tell the square of the bias by a product, whatever the noise of each is.
+/// The same with other kernels around points that are to be read with little error: as wide as
+/// makes the sum of the squares of noise and bias least, but at least half as wide as they were; on
+/// surfaces in the mean over the points of a patch, on sensor planes at each point by itself. Two
+/// pilots that are independent of each other tell the square of the bias by a product, whatever the
+/// noise of each is.
 /// @param accuracy  relative expanded uncertainty that is asked for: the higher it is, the more
 ///                  light the run has, and the less its noise weighs.
 Radii widened_around(const Stage& stage, const SensorPlanes& planes, const Radii& radii,

@@ -22,19 +22,21 @@ struct OnePoint {
     Stage stage{scene.parts};
     SensorPlanes planes{stage.parts(), stage.caster(), margin_m};
 
+    enum class Light { within, outside, on_one_side };
+
     /// Photons at random in a square around the point, as dense as `photons` in the unit disk;
-    /// those farther than the edge are missing.
-    /// @param bright_outside  those within the edge are missing instead, but for one in a hundred.
-    PilotPhotons pilot(std::uint32_t number, double photons, double edge_m,
-                       bool bright_outside = false) const {
+    /// beyond the edge there are none. That is a circle, of which the inside may be dark instead
+    /// but for one photon in a hundred, or a straight line.
+    PilotPhotons pilot(std::uint32_t number, double photons, double edge_m, Light light) const {
         PilotPhotons result{{}, 1000};
         const auto count = static_cast<std::uint32_t>(photons * 4.0 / pi);
         for (std::uint32_t i = 0; i < count; ++i) {
             RandomStream random(1, number, RandomPurpose::test, i);
             const double x = 2.0 * random.uniform() - 1.0;
             const Vec3 at(x, 2.0 * random.uniform() - 1.0, 0.0);
-            // A dark place keeps one in a hundred.
-            const bool dark = bright_outside ? at.norm() < edge_m && i % 100 : at.norm() > edge_m;
+            const bool dark = light == Light::within    ? at.norm() > edge_m
+                              : light == Light::outside ? at.norm() < edge_m && i % 100
+                                                        : x > edge_m;
             if (dark) continue;
             result.photons.push_back({{at, Vec3::UnitZ(), no_object, 0, 0},
                                       -Vec3::UnitZ(),
@@ -44,12 +46,12 @@ struct OnePoint {
         return result;
     }
 
-    double radius_m(double edge_m, double photons = 20000.0, bool bright_outside = false) const {
+    double radius_m(double edge_m, double photons = 20000.0, Light light = Light::within) const {
         const Radii narrow(std::vector<double>(stage.patch_count() + 1, 1e-3));
         const SurfacePoint point{Vec3::Zero(), Vec3::UnitZ(), no_object, 0, 0};
         const std::vector<ReadPoint> points{{point, 0}};
-        return widened_around(stage, planes, narrow, pilot(1, photons, edge_m, bright_outside),
-                              pilot(2, photons, edge_m, bright_outside), points, 0.02)
+        return widened_around(stage, planes, narrow, pilot(1, photons, edge_m, light),
+                              pilot(2, photons, edge_m, light), points, 0.02)
             .of_point(0);
     }
 };
@@ -69,10 +71,18 @@ TEST_CASE("A kernel of a sensor is as wide as light is even around it") {
     // A dark place in bright light: a kernel that takes some of that in has more photons, but they
     // are not those of the place.
     for (const double edge_m : {0.6, 0.3}) {
-        const double radius_m = room.radius_m(edge_m, 20000.0, true);
+        const double radius_m = room.radius_m(edge_m, 20000.0, OnePoint::Light::outside);
         INFO("bright beyond " << edge_m << " m, radius " << radius_m << " m");
         CHECK(radius_m <= edge_m);
         CHECK(radius_m > 0.35 * edge_m);
+    }
+    // A straight edge close to the point, as of a sharp shadow: half of a wide disc is dark, and
+    // half of any narrower one, so that no two radii tell that the point is bright.
+    for (const double edge_m : {0.1, 0.05}) {
+        const double radius_m = room.radius_m(edge_m, 20000.0, OnePoint::Light::on_one_side);
+        INFO("shadow beyond " << edge_m << " m, radius " << radius_m << " m");
+        CHECK(radius_m <= 2.0 * edge_m);
+        CHECK(radius_m > 0.25 * edge_m);
     }
     // Few photons tell no bias of a kernel; without any the radius stays as it was.
     CHECK(room.radius_m(infinity, 0.0) == 1e-3);

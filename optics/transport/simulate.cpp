@@ -127,7 +127,9 @@ void go_on(const SceneParts& parts, const Settings& asked, RunState& state, cons
     Simulation simulation(parts, state, limits.threads > 0 ? limits.threads : hardware_threads());
     if (state.settings.method == Method::path && simulation.stage().has_caustics()) {
         state.warnings = {
-            "path tracing does not see light of points and beams behind specular surfaces"};
+            "path tracing does not see light of points and beams behind specular surfaces, and "
+            "finds "
+            "lamps behind them by chance: what no ray has found yet is in no U"};
     }
 
     std::mutex mutex;

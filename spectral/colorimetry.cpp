@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <vector>
@@ -35,21 +36,37 @@ double distance(UniformChromaticity a, UniformChromaticity b) {
     return std::hypot(a.u - b.u, a.v - b.v);
 }
 
-struct LocusPoint {
-    double mired;
-    UniformChromaticity uv;
-};
-
-// Points of the locus dense enough to enclose the one minimum between neighbours of the nearest.
-const std::vector<LocusPoint>& locus() {
-    static const std::vector<LocusPoint> points = [] {
-        std::vector<LocusPoint> list;
-        for (double mired = min_mired; mired <= max_mired; mired += 10.0) {
-            list.push_back({mired, black_body_1960(mired)});
+// Points of the locus, so dense that cubic interpolation is exact to 1e-10, from one step before
+// the range of the search to one step beyond it.
+constexpr double mired_step = 2.0;
+const std::vector<UniformChromaticity>& locus() {
+    static const std::vector<UniformChromaticity> points = [] {
+        std::vector<UniformChromaticity> list;
+        for (double mired = min_mired - mired_step; mired < max_mired + 1.5 * mired_step;
+             mired += mired_step) {
+            list.push_back(black_body_1960(mired));
         }
         return list;
     }();
     return points;
+}
+
+// By Lagrange's polynomial through four points of the locus.
+UniformChromaticity on_locus(double mired) {
+    const std::vector<UniformChromaticity>& points = locus();
+    const double place = (mired - min_mired) / mired_step;
+    const auto first = static_cast<std::size_t>(
+        std::clamp(std::floor(place), 0.0, static_cast<double>(points.size() - 4)));
+    const double t = place - static_cast<double>(first);
+    const std::array<double, 4> weights{
+        -t * (t - 1.0) * (t - 2.0) / 6.0, (t + 1.0) * (t - 1.0) * (t - 2.0) / 2.0,
+        -(t + 1.0) * t * (t - 2.0) / 2.0, (t + 1.0) * t * (t - 1.0) / 6.0};
+    UniformChromaticity sum{0.0, 0.0};
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        sum.u += weights[i] * points[first + i].u;
+        sum.v += weights[i] * points[first + i].v;
+    }
+    return sum;
 }
 
 // Golden section search for the minimum of a function with one minimum in the interval.
@@ -109,21 +126,19 @@ std::optional<ColourTemperature> correlated_colour_temperature(const Xyz& colour
     const std::optional<UniformChromaticity> uv = chromaticity_1960(colour);
     if (!uv) return std::nullopt;
 
-    const std::vector<LocusPoint>& points = locus();
-    std::size_t nearest = 0;
-    for (std::size_t i = 1; i < points.size(); ++i) {
-        if (distance(*uv, points[i].uv) < distance(*uv, points[nearest].uv)) nearest = i;
+    const auto distance_to = [&](double mired) { return distance(*uv, on_locus(mired)); };
+    // Dense enough to enclose the one minimum between neighbours of the nearest.
+    constexpr double coarse_step = 10.0;
+    double nearest = min_mired;
+    for (double mired = min_mired; mired <= max_mired; mired += coarse_step) {
+        if (distance_to(mired) < distance_to(nearest)) nearest = mired;
     }
-    const double low = points[nearest == 0 ? 0 : nearest - 1].mired;
-    const double high = points[std::min(nearest + 1, points.size() - 1)].mired;
-
-    const auto distance_to = [&](double mired) { return distance(*uv, black_body_1960(mired)); };
-    const double mired = minimum(distance_to, low, high, 1e-6);
+    const double mired = minimum(distance_to, std::max(min_mired, nearest - coarse_step),
+                                 std::min(max_mired, nearest + coarse_step), 1e-6);
     const double duv = distance_to(mired);
     const bool at_an_end = mired < min_mired + 1e-3 || mired > max_mired - 1e-3;
     if (at_an_end || duv > max_duv) return std::nullopt;
-    return ColourTemperature{temperature_k(mired),
-                             std::copysign(duv, uv->v - black_body_1960(mired).v)};
+    return ColourTemperature{temperature_k(mired), std::copysign(duv, uv->v - on_locus(mired).v)};
 }
 
 const Eigen::Matrix3d& linear_srgb_from_xyz() {

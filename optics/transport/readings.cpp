@@ -352,7 +352,7 @@ std::optional<Colour> Readings::colour(std::size_t sensor_bin) const {
     Colour colour{share(0), share(1), std::nullopt, std::nullopt};
     const auto temperature = spectral::correlated_colour_temperature(mean);
     if (!temperature) return colour;
-    // To find the nearest black body takes long; its change with X, Y and Z is linear enough.
+    // Not sought for each batch of phases: its change with X, Y and Z is linear enough.
     const double step = 1e-4 * (mean.x + mean.y + mean.z);
     const auto along_x = spectral::correlated_colour_temperature({mean.x + step, mean.y, mean.z});
     const auto along_y = spectral::correlated_colour_temperature({mean.x, mean.y + step, mean.z});

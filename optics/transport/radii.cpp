@@ -129,25 +129,32 @@ double radius_of_small_bias(const std::vector<Arrival>& photons, const std::vect
 //
 // A step that runs through the middle of a kernel shows at no two radii, though the point beside it
 // is off by half of its height h. But it makes the light lopsided: with r the radius, its first
-// moment is h r^3 2 / 3. A steady slope does that as well and has no bias, so that only a fifth of
+// moment is h r^3 2 / 3. A steady slope does that as well and has no bias, so that only a tenth of
 // what the moment might mean counts.
+//
+// Noise is told by the photons of the place: where rays are guided, those elsewhere may be a
+// thousand times as heavy.
 //
 // All errors are those of the irradiance at the points, not in shares of what a kernel holds: a
 // wide one beside bright light would be favoured for having much of that. Where the points are
 // brighter than what lies around, it is their own irradiance that a bias is a share of.
 double radius_of_least_error(const std::vector<Arrival>& one, const std::vector<Arrival>& other,
                              const std::vector<Vec3>& points, double limit_m, double accuracy) {
-    constexpr double enough_photons = 16.0;  // to tell the irradiance
+    constexpr double enough_photons = 8.0;  // of equal flux, to tell the irradiance
     // Of a kernel's flux, if all of the moment over its radius is that of a step: h / 2 pi r^2.
     constexpr double error_per_moment = 0.75 * pi;
-    constexpr double share_of_steps = 0.2;
+    constexpr double share_of_steps = 0.1;
+    // Of the accuracy that is asked for: a bias below it matters less than what narrower kernels
+    // cost.
+    constexpr double small_bias = 1.0 / 3.0;
     const double weight_of_noise = std::min(1.0 / 8.0, square(accuracy / 0.057));
     struct Step {
         double area = 0.0;         // of the kernel, over that of the widest
-        double photons = 0.0;      // in both kernels of a point
-        double bias_square = 0.0;  // of the flux of one
+        double flux = 0.0;         // of one kernel of a point
+        double variance = 0.0;     // of that flux
+        double bias_square = 0.0;  // of that flux
         double step_square = 0.0;  // of its moment over its radius
-        double irradiance() const { return 0.5 * photons / area; }
+        double irradiance() const { return flux / area; }
     };
     std::vector<Step> steps(radius_steps);
     for (std::size_t i = 0; i < radius_steps; ++i) {
@@ -158,36 +165,42 @@ double radius_of_least_error(const std::vector<Arrival>& one, const std::vector<
         const LightByRadius a = light_around(point, one, limit_m);
         const LightByRadius b = light_around(point, other, limit_m);
         for (std::size_t i = 0; i < radius_steps; ++i) {
-            steps[i].photons += share * (a.flux[i] + b.flux[i]);
+            steps[i].flux += 0.5 * share * (a.flux[i] + b.flux[i]);
+            steps[i].variance += 0.5 * share * (a.squares[i] + b.squares[i]);
             steps[i].bias_square +=
                 share * 4.0 * (a.flux[i] - 2.0 * a.flux[i + 1]) * (b.flux[i] - 2.0 * b.flux[i + 1]);
             steps[i].step_square += share * a.moment[i].dot(b.moment[i]) / steps[i].area;
         }
     }
-    if (!(steps[0].photons > 0.0)) return 0.0;
+    if (!(steps[0].flux > 0.0)) return 0.0;
     double at_points = 0.0;
     for (const Step& step : steps) {
-        if (step.photons >= enough_photons) at_points = step.irradiance();
+        if (square(step.flux) > enough_photons * step.variance) at_points = step.irradiance();
     }
     double best_m = 0.0;
     double least = infinity;
     double bound = infinity;  // of the square of the bias
     double radius_m = limit_m;
+    double of_a_photon = 0.0;  // flux
     for (const Step& step : steps) {
         // Half a standard deviation of the product, if photons are random, is taken for luck: it is
         // far above what noise adds to the error, and would else narrow kernels without a reason.
-        const double of_luck = step.photons;
+        const double of_luck = 2.0 * step.variance;
         const double shown = std::max(0.0, step.bias_square - of_luck) / square(step.area);
         const double brighter =
-            step.photons > 0.0 ? std::max(1.0, at_points / step.irradiance()) : 1.0;
+            step.flux > 0.0 ? std::max(1.0, at_points / step.irradiance()) : 1.0;
         bound = std::min(0.5 * bound, square(brighter) * shown);
         // A kernel without photons is not known to have no noise.
-        const double variance = 0.5 * std::max(1.0, step.photons) / square(step.area);
+        if (step.flux > 0.0) of_a_photon = step.variance / step.flux;
+        const double variance =
+            std::max(0.5 * square(of_a_photon), step.variance) / square(step.area);
         // Less one standard deviation of a product of moments, if photons are random.
-        const double lucky_step = std::numbers::sqrt2 / 8.0 * step.photons;
+        const double lucky_step = std::numbers::sqrt2 / 4.0 * step.variance;
         const double of_step = std::max(0.0, step.step_square - lucky_step) *
                                square(share_of_steps * error_per_moment / step.area);
-        const double error = weight_of_noise * variance + bound + of_step;
+        const double bias =
+            std::max(0.0, bound + of_step - square(small_bias * accuracy * at_points));
+        const double error = weight_of_noise * variance + bias;
         if (error < least) {
             least = error;
             best_m = radius_m;

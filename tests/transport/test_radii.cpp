@@ -22,6 +22,8 @@ struct OnePoint {
     Stage stage{scene.parts};
     SensorPlanes planes{stage.parts(), stage.caster(), margin_m};
 
+    float flux_in_corners = 1.0f;  // of the photons that no kernel reaches, others have 1
+
     enum class Light { within, outside, on_one_side };
 
     /// Photons at random in a square around the point, as dense as `photons` in the unit disk;
@@ -38,10 +40,11 @@ struct OnePoint {
                               : light == Light::outside ? at.norm() < edge_m && i % 100
                                                         : x > edge_m;
             if (dark) continue;
-            result.photons.push_back({{at, Vec3::UnitZ(), no_object, 0, 0},
-                                      -Vec3::UnitZ(),
-                                      Lanes::Ones(),
-                                      History::caustic});
+            result.photons.push_back(
+                {{at, Vec3::UnitZ(), no_object, 0, 0},
+                 -Vec3::UnitZ(),
+                 Lanes::Constant(at.norm() > margin_m ? flux_in_corners : 1.0f),
+                 History::caustic});
         }
         return result;
     }
@@ -84,6 +87,10 @@ TEST_CASE("A kernel of a sensor is as wide as light is even around it") {
         CHECK(radius_m <= 2.0 * edge_m);
         CHECK(radius_m > 0.25 * edge_m);
     }
+    // Guided rays leave photons of little flux where they are wanted, and heavy ones elsewhere.
+    const OnePoint guided{.flux_in_corners = 1e4f};
+    CHECK(guided.radius_m(0.1, 20000.0, OnePoint::Light::on_one_side) <= 0.2);
+    CHECK(guided.radius_m(infinity) > 0.99 * margin_m);
     // Few photons tell no bias of a kernel; without any the radius stays as it was.
     CHECK(room.radius_m(infinity, 0.0) == 1e-3);
 }

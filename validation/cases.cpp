@@ -14,6 +14,7 @@ constexpr std::array list{
     Family{"cylinder_lens", "caustics with curvature in one direction", cylinder_lens_cases},
     Family{"rod_guide", "many total reflections, skew rays, end faces", rod_guide_cases},
     Family{"prism", "dispersion and the directions of refracted light", prism_cases},
+    Family{"pane_shadow", "kernels beside a sharp shadow behind glass", pane_shadow_cases},
     Family{"beer_lambert", "absorption over wavelength", beer_lambert_cases},
     Family{"invariance", "luminance behind and within glass", invariance_cases},
     Family{"colour", "colour of CIE illuminants through the engine", colour_cases},

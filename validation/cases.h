@@ -16,6 +16,7 @@ std::vector<Case> slab_cases();
 std::vector<Case> ball_lens_cases();      // in cases/round_lens.cpp
 std::vector<Case> cylinder_lens_cases();  // in cases/round_lens.cpp
 std::vector<Case> rod_guide_cases();
+std::vector<Case> pane_shadow_cases();
 std::vector<Case> prism_cases();
 std::vector<Case> beer_lambert_cases();
 std::vector<Case> invariance_cases();

@@ -1,6 +1,7 @@
 // The truths of the families with glass against second derivations.
 #include <catch2/catch.hpp>
 
+#include "validation/truth/pane_shadow.h"
 #include "validation/truth/prism.h"
 #include "validation/truth/quadrature.h"
 #include "validation/truth/rod_guide.h"
@@ -279,4 +280,36 @@ TEST_CASE("Rod guide: what is known of it in closed form", "[unit]") {
         CHECK_THAT(few.sides, WithinAbs(many.sides, 2e-4));
         CHECK_THAT(few.absorbed, WithinAbs(many.absorbed, 2e-4));
     }
+}
+
+TEST_CASE("A pane of index 1 leaves the inverse square law and a straight shadow", "[analytic]") {
+    const PaneShadow shadow{100.0, 1.2, 0.01, 1.0 + 1e-9, 0.3, 0.2};
+    CHECK_THAT(shadow.shadow_edge_m(), WithinRel(0.2 * 1.2 / (1.2 - 0.3), 1e-6));
+    for (const double x : {0.05, 0.2, 0.26}) {
+        CHECK_THAT(shadow.illuminance_lx(x),
+                   WithinRel(100.0 * 1.2 / std::pow(1.2 * 1.2 + x * x, 1.5), 1e-6));
+    }
+    CHECK(shadow.illuminance_lx(0.27) < 1e-6);
+}
+
+TEST_CASE("Light below a pane is what the pane lets through", "[analytic]") {
+    // The screen is too far away to matter.
+    const PaneShadow shadow{100.0, 1.0, 0.05, 1.6, 0.1, 1e3};
+    const double reach = 0.9;  // of the angle, at which light that is reflected never ends
+    const double edge_m = shadow.distance_m(reach, 0);
+    double on_floor = 0.0, let_through = 0.0;
+    constexpr int steps = 4000;
+    for (int i = 0; i < steps; ++i) {
+        const double x = edge_m * (i + 0.5) / steps;
+        on_floor += shadow.illuminance_lx(x) * 2.0 * pi * x * edge_m / steps;
+    }
+    for (int order = 0; order < 4; ++order) {
+        for (int i = 0; i < steps; ++i) {
+            const double angle = reach * (i + 0.5) / steps;
+            if (shadow.distance_m(angle, order) > edge_m) continue;
+            let_through += 100.0 * slab_beam(1.6, angle, 0.05, 0.0, order).transmittance * 2.0 *
+                           pi * std::sin(angle) * reach / steps;
+        }
+    }
+    CHECK_THAT(on_floor, WithinRel(let_through, 1e-4));
 }

@@ -107,7 +107,7 @@ void BackwardMap::add(std::uint32_t index, const Photon& photon) {
     const std::uint32_t patch = kernel_patch(phase_->stage, backward.point);
     if (in_kernel(phase_->stage, backward.point, photon.point,
                   inner_radius_factor * (*radii_)[patch])) {
-        sums_[index].inner += f;
+        sums_[index].narrow += f;
     }
     touched_[index] = 1;
 }

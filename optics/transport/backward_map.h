@@ -89,7 +89,7 @@ private:
     std::vector<BackwardPhoton> photons_;
     std::uint8_t accepted_ = 0;  // by any of them
     std::vector<std::size_t> block_starts_;
-    std::vector<KernelSums> sums_;  // of f dPhi, at both radii
+    std::vector<KernelSums> sums_;  // of f dPhi, by two radii
     std::vector<std::uint8_t> touched_;
     std::size_t bucket_mask_ = 0;
     BucketTable<Candidate> grid_;  // each photon stands in all cells that its kernel meets

@@ -12,6 +12,11 @@ namespace {
 
 constexpr std::uint32_t most_photons = (1u << 30) - 1;
 
+// Elsewhere the distance along the surface may be longer than the straight one.
+bool is_straight(const Stage& stage, const SurfacePoint& p) {
+    return p.object == no_object || !unrolls(stage.parts().objects[p.object].shape, p.patch);
+}
+
 }  // namespace
 
 bool in_kernel(const Stage& stage, const SurfacePoint& p, const SurfacePoint& q, double radius_m) {
@@ -32,6 +37,7 @@ KernelAreas kernel_areas(const Stage& stage, const SurfacePoint& p, double radiu
 }
 
 double bias_per_difference(const KernelAreas& areas, double radius_m) {
+    if (areas.flat_disc) return 1.0;
     const double disc = pi * square(inner_radius_factor * radius_m);
     const double lacks = std::clamp(1.0 - areas.inner / disc, 0.0, 0.5);
     return 2.0 + 2.0 * std::numbers::sqrt2 * lacks;  // to 1 / (1 - 1 / sqrt 2)
@@ -43,7 +49,7 @@ Gathered KernelSums::over(const KernelAreas& areas, double radius_m, double rays
     // A sliver tells nothing of the bias but noise.
     constexpr double sliver = 0.125;
     if (areas.inner < sliver * areas.full) return {radiance, Lanes::Zero()};
-    const Lanes inside = inner * static_cast<float>(1.0 / (rays * areas.inner));
+    const Lanes inside = narrow * static_cast<float>(1.0 / (rays * areas.inner));
     return {radiance,
             static_cast<float>(bias_per_difference(areas, radius_m)) * (radiance - inside)};
 }
@@ -85,17 +91,15 @@ ForwardMap::ForwardMap(const Stage& stage, const Radii& radii, const std::vector
     });
 }
 
-// Calls use(candidate, photon, whether it lies within the inner radius).
+// Calls use(candidate, photon, its weight in the narrow kernel).
 template <typename Use>
 void ForwardMap::for_each_in_kernel(const Stage& stage, const GatherPoint& at, double cell_m,
-                                    double radius_m, const Use& use) const {
+                                    double radius_m, bool flat_disc, const Use& use) const {
     const Vec3& centre = at.point.position;
     const std::uint32_t patch = kernel_patch(stage, at.point);
     const bool plane = at.point.object == no_object ||
                        is_plane(stage.parts().objects[at.point.object].shape, at.point.patch);
-    // Elsewhere the distance along the surface may be longer than the straight one.
-    const bool straight = at.point.object == no_object ||
-                          !unrolls(stage.parts().objects[at.point.object].shape, at.point.patch);
+    const bool straight = is_straight(stage, at.point);
     const double inner_m = inner_radius_factor * radius_m;
     const double square_m2 = square(radius_m), inner_square_m2 = square(inner_m);
 
@@ -143,9 +147,13 @@ void ForwardMap::for_each_in_kernel(const Stage& stage, const GatherPoint& at, d
                 if (!straight && !in_kernel(stage, at.point, photon.point, radius_m)) continue;
                 if (at.region && !at.region->holds(photon.point.position)) continue;
                 if (at.but_of && (*at.but_of)[photon.light]) continue;
-                use(candidate, photon,
-                    distance_m2 < inner_square_m2 &&
-                        (straight || in_kernel(stage, at.point, photon.point, inner_m)));
+                if (flat_disc) {
+                    use(candidate, photon, narrow_weight(distance_m2 / square_m2));
+                    continue;
+                }
+                const bool inner = distance_m2 < inner_square_m2 &&
+                                   (straight || in_kernel(stage, at.point, photon.point, inner_m));
+                use(candidate, photon, inner ? 1.0 : 0.0);
             }
         }
     }
@@ -159,38 +167,40 @@ Gathered ForwardMap::gather(const Phase& phase, const Radii& radii, const Gather
     const auto scattered = [&](const Vec3& wi) {
         return evaluate(at.bsdf, at.optics, at.wo, wi, Transport::radiance);
     };
+    KernelAreas areas = at.region ? KernelAreas{at.region->area_m2(radius_m),
+                                                at.region->area_m2(inner_radius_factor * radius_m)}
+                                  : kernel_areas(stage, at.point, radius_m);
+    if (areas.full == pi * radius_m * radius_m && is_straight(stage, at.point)) {
+        areas = {areas.full, areas.full, true};
+    }
     KernelSums sum;
     bool found = false;
     const auto add = [&](KernelSums& to, const Lanes& light, const Candidate& candidate,
-                         bool inner) {
+                         double weight) {
         found = true;
         const bool halved = candidate.on_common_lane && at.optics.hero_only;
         const Lanes part = halved ? Lanes(light * weight_of_common_heroes) : light;
         to.full += part;
-        if (inner) to.inner += part;
+        to.narrow += static_cast<float>(weight) * part;
     };
     if (std::holds_alternative<Diffuse>(at.bsdf)) {
         // All light from a side is scattered alike.
         KernelSums above, below;
-        for_each_in_kernel(stage, at, cell_m, radius_m,
-                           [&](const Candidate& candidate, const Photon& photon, bool inner) {
-                               add(candidate.above ? above : below, photon.flux, candidate, inner);
+        for_each_in_kernel(stage, at, cell_m, radius_m, areas.flat_disc,
+                           [&](const Candidate& candidate, const Photon& photon, double weight) {
+                               add(candidate.above ? above : below, photon.flux, candidate, weight);
                            });
         const Lanes from_above = scattered(Vec3::UnitZ()), from_below = scattered(-Vec3::UnitZ());
         sum.full = above.full * from_above + below.full * from_below;
-        sum.inner = above.inner * from_above + below.inner * from_below;
+        sum.narrow = above.narrow * from_above + below.narrow * from_below;
     } else {
-        for_each_in_kernel(stage, at, cell_m, radius_m,
-                           [&](const Candidate& candidate, const Photon& photon, bool inner) {
+        for_each_in_kernel(stage, at, cell_m, radius_m, areas.flat_disc,
+                           [&](const Candidate& candidate, const Photon& photon, double weight) {
                                const Vec3 wi = kernel_direction(at.frame, photon);
-                               add(sum, photon.flux * scattered(wi), candidate, inner);
+                               add(sum, photon.flux * scattered(wi), candidate, weight);
                            });
     }
     if (!found) return {};
-    const KernelAreas areas = at.region
-                                  ? KernelAreas{at.region->area_m2(radius_m),
-                                                at.region->area_m2(inner_radius_factor * radius_m)}
-                                  : kernel_areas(stage, at.point, radius_m);
     return sum.over(areas, radius_m, rays_);
 }
 

@@ -4,9 +4,11 @@
 #include "optics/transport/forward_map.h"
 #include "optics/transport/path.h"
 #include "validation/scene_builder.h"
+#include "validation/truth/quadrature.h"
 
 using namespace lucerna;
 using namespace lucerna::optics;
+using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;
 
 TEST_CASE("Kernels end where the surface ends, at both radii", "[unit]") {
@@ -38,31 +40,36 @@ TEST_CASE("Kernels end where the surface ends, at both radii", "[unit]") {
     CHECK_THAT(near_edge.inner, WithinRel(disc / 2.0, 1e-12));
 }
 
-TEST_CASE("What two radii tell of the kernel bias makes a curved field exact", "[analytic]") {
-    // Photons on a fine grid with E(x) = 1 - k |x - c|^2 per area: the mean over a kernel around c
-    // is 1 - k r^2 / 2, and L = rho / pi times that.
-    const double rho = 0.5, k = 20.0, radius_m = 0.1;
+namespace {
+
+constexpr double kernel_radius_m = 0.1;
+
+// What a kernel in the middle of a white plate gathers of photons on a fine grid, as irradiance:
+// E(x, y) with x and y in radii from the centre of the kernel.
+template <typename Field>
+std::pair<double, double> irradiance_and_bias(const Field& field) {
     validation::SceneBuilder scene;
-    const BsdfId paint = scene.diffuse(rho);
+    const BsdfId paint = scene.diffuse(1.0);
     const ObjectId plate = scene.object("plate", Rectangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, paint);
     scene.light("light", PointLight{{0, 0, 1}}, 1.0);
     scene.receiver(plate);
     const Stage stage(scene.parts);
     const Phase phase(stage, 1, 0);
     const Vec3 centre(0.5, 0.4, 0.0);
-    const double step_m = 0.0005, rays = 7.0;
+    const double step_m = kernel_radius_m / 200.0, rays = 7.0;
     std::vector<Photon> photons;
     for (int i = -220; i < 220; ++i) {
         for (int j = -220; j < 220; ++j) {
             const Vec3 offset((i + 0.5) * step_m, (j + 0.5) * step_m, 0.0);
-            const double flux = (1.0 - k * offset.squaredNorm()) * step_m * step_m * rays;
+            const double flux = field(offset.x() / kernel_radius_m, offset.y() / kernel_radius_m) *
+                                step_m * step_m * rays;
             photons.push_back({{centre + offset, Vec3::UnitZ(), plate},
                                -Vec3::UnitZ(),
                                Lanes::Constant(static_cast<float>(flux)),
                                History::caustic});
         }
     }
-    const Radii radii({radius_m});
+    const Radii radii({kernel_radius_m});
     const ForwardMap map(stage, radii, photons, static_cast<std::uint64_t>(rays), 1);
     const SurfacePoint point{centre, Vec3::UnitZ(), plate};
     const Frame frame(point.normal);
@@ -70,12 +77,55 @@ TEST_CASE("What two radii tell of the kernel bias makes a curved field exact", "
     const SurfaceOptics optics = optics_at(phase, no_object, no_object, false, 0);
     const Gathered gathered =
         map.gather(phase, radii, {point, frame, wo, stage.parts().bsdfs[paint], optics});
-    const auto radiance = static_cast<double>(gathered.radiance[0]);
-    const auto bias = static_cast<double>(gathered.bias[0]);
-    // Cells on the rims of the kernels: about 2e-4 of each sum, and 2 % of the bias.
-    CHECK_THAT(radiance, WithinRel(rho / pi * (1.0 - k * radius_m * radius_m / 2.0), 1e-3));
-    CHECK_THAT(bias, WithinRel(-rho / pi * k * radius_m * radius_m / 2.0, 0.04));
-    CHECK_THAT(radiance - bias, WithinRel(rho / pi, 2e-3));
+    return {pi * static_cast<double>(gathered.radiance[0]),
+            pi * static_cast<double>(gathered.bias[0])};
+}
+
+}  // namespace
+
+// Cells on the rims of the kernels: about 2e-4 of each sum.
+TEST_CASE("What two kernels tell of the kernel bias makes a curved field exact", "[analytic]") {
+    // The mean of 1 - k d^2 over a disc of radius 1 around 0 is 1 - k / 2.
+    const auto [irradiance, bias] =
+        irradiance_and_bias([](double x, double y) { return 1.0 - 0.2 * (x * x + y * y); });
+    CHECK_THAT(irradiance, WithinRel(0.9, 1e-3));
+    CHECK_THAT(bias, WithinRel(-0.1, 0.01));
+}
+
+TEST_CASE("What two kernels tell of the kernel bias leaves a tenth of the fourth order",
+          "[analytic]") {
+    // The mean of d^4 over the disc is 1/3; weighed by 6 (1 - 2 d^2) (1 - d^2) it is -1/10.
+    const auto [irradiance, bias] =
+        irradiance_and_bias([](double x, double y) { return 1.0 + square(x * x + y * y); });
+    CHECK_THAT(irradiance, WithinRel(4.0 / 3.0, 1e-3));
+    CHECK_THAT(irradiance - bias, WithinRel(0.9, 1e-3));
+}
+
+TEST_CASE("What two kernels tell of the kernel bias bounds what an edge leaves of it",
+          "[analytic]") {
+    // Light ends at a straight line. Past it lies a segment of the disc, and of the narrow kernel
+    // what its chords hold: for |y| < h, and with s = x^2 + y^2.
+    for (const double edge : {0.3, 0.5, 0.7, 0.9}) {
+        const auto [irradiance, bias] =
+            irradiance_and_bias([&](double x, double) { return x < edge ? 1.0 : 0.0; });
+        const double lost =
+            truth::integral(
+                [](double x) {
+                    const double h = std::sqrt(1.0 - x * x);
+                    const double a = 1.0 - x * x, b = 1.0 - 2.0 * x * x;
+                    // of (b - 2 y^2) (a - y^2)
+                    return 2.0 * h *
+                           (a * b - (2.0 * a + b) * h * h / 3.0 + 2.0 * h * h * h * h / 5.0);
+                },
+                edge, 1.0, 16) *
+            6.0 / pi;
+        CAPTURE(edge);
+        CHECK_THAT(
+            irradiance,
+            WithinAbs(1.0 - (std::acos(edge) - edge * std::sqrt(1.0 - edge * edge)) / pi, 0.002));
+        CHECK_THAT(irradiance - bias, WithinAbs(1.0 - lost, 0.004));
+        CHECK(std::abs(irradiance - bias - 1.0) < 0.5 * std::abs(bias));
+    }
 }
 
 TEST_CASE("What two radii tell of the kernel bias is exact at the edge of a slope", "[analytic]") {
@@ -87,7 +137,7 @@ TEST_CASE("What two radii tell of the kernel bias is exact at the edge of a slop
     const auto mean = [&](double r) { return 1.0 + g * 4.0 * r / (3.0 * pi); };
     KernelSums sums;
     sums.full = Lanes::Constant(static_cast<float>(mean(radius_m) * half.full));
-    sums.inner =
+    sums.narrow =
         Lanes::Constant(static_cast<float>(mean(inner_radius_factor * radius_m) * half.inner));
     const Gathered gathered = sums.over(half, radius_m, 1.0);
     CHECK_THAT(static_cast<double>(gathered.radiance[0] - gathered.bias[0]), WithinRel(1.0, 1e-5));

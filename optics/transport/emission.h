@@ -27,6 +27,8 @@ public:
     }
     /// Whether the rays have common heroes: those whose photons backward rays gather.
     bool common_heroes() const { return purpose_ == RandomPurpose::caustic; }
+    /// Whether a guide sends them: they carry unequal flux.
+    bool guided() const { return guide_ != nullptr; }
     Departure depart(std::uint32_t index, RandomStream& random) const;
 
 private:

@@ -28,6 +28,170 @@ Path emitted_path(const Phase& phase, const Departure& departure, bool common_he
             .lossless_events = 0};
 }
 
+// A guided ray that carries more than this times its natural flux, that of rays chosen in
+// proportion to flux, goes both ways at a smooth boundary. Most carry less, and one that rare
+// reflections led to where the others are light would make most of the noise there, and be found by
+// few phases.
+constexpr double heavy = 0.05;
+constexpr double almost_one = 1.0 - 0x1p-32;
+
+// A forward ray between two surfaces.
+struct Flight {
+    Path path;
+    History history;
+    double share;  // of the natural flux
+};
+
+class ForwardTrace {
+public:
+    ForwardTrace(const Phase& phase, bool common_heroes, Reach reach, const SensorPlanes* planes,
+                 std::uint32_t light, ForwardTally& tally,
+                 const std::function<void(const Photon&)>& arrive)
+        : phase_(phase),
+          common_heroes_(common_heroes),
+          reach_(reach),
+          planes_(planes),
+          light_(light),
+          tally_(tally),
+          arrive_(arrive) {}
+
+    void trace(Flight flight, RandomStream& random) {
+        while (true) {
+            flux_lm_ = phase_.luminous(flight.path.weight);
+            while (next_event(flight, random)) {
+            }
+            if (branches_.empty()) return;
+            flight = branches_.back();
+            branches_.pop_back();
+        }
+    }
+
+private:
+    // To the next surface and away from it; false where the flight ends.
+    bool next_event(Flight& flight, RandomStream& random) {
+        Path& path = flight.path;
+        const Stage& stage = phase_.stage;
+        const SceneParts& parts = stage.parts();
+        const auto on_common_lane = [&] { return path.hero_only && common_heroes_; };
+
+        const auto encounter = next_encounter(phase_, path);
+        ++tally_.segments;
+        if (planes_ && flight.history != History::direct) {
+            const double length_m =
+                encounter ? (encounter->point.position - path.ray.origin).norm() : infinity;
+            const ObjectId medium = path.media.acting(parts);
+            planes_->crossings(path.ray, length_m, [&](const SurfacePoint& point) {
+                const double way_m = (point.position - path.ray.origin).norm();
+                arrive_({point, path.ray.direction,
+                         path.weight * phase_.transmittance(medium, way_m), flight.history,
+                         on_common_lane(), light_});
+            });
+        }
+        if (!encounter) {
+            tally_.escaped += flux_lm_;
+            return false;
+        }
+        const ObjectId solid = path.media.acting(parts);
+        float factor = 1.0f;
+        if (phase_.absorbs(solid)) {
+            path.weight *= encounter->transmittance;
+            const double left_lm = phase_.luminous(path.weight);
+            tally_.absorbed_by_solid[solid] += flux_lm_ - left_lm;
+            flux_lm_ = left_lm;
+            factor = live_max(path, encounter->transmittance);
+        }
+        const ObjectId object = encounter->point.object;
+        (encounter->wo.z() > 0.0 ? tally_.received_front : tally_.received_back)[object] +=
+            flux_lm_;
+        if (!encounter->consistent) {
+            tally_.inconsistent += flux_lm_;
+            return false;
+        }
+        if (encounter->bsdf == pass_through) {
+            pass(path, *encounter);
+            return true;
+        }
+        if (stage.scatters(encounter->bsdf)) {
+            arrive_({encounter->point, path.ray.direction, path.weight, flight.history,
+                     on_common_lane(), light_});
+            // A surface with both kinds of lobes lets the path go on by the specular one.
+        }
+        const Bsdf& bsdf = parts.bsdfs[encounter->bsdf];
+        // A smooth boundary takes nothing: the change is the luck of choosing lane and lobe.
+        const bool lossless = std::holds_alternative<SmoothDielectric>(bsdf);
+        const auto event = [&](Path& arriving, double u_lobe, double u1, double u2) {
+            return sample(bsdf, optics_at(phase_, *encounter, arriving), encounter->wo, u_lobe, u1,
+                          u2, Transport::flux);
+        };
+        std::optional<BsdfSample> sampled;
+        double kept = 1.0;  // share of the flux, the rest goes the other way
+        if (lossless && reach_ == Reach::first_scattering && flight.share > heavy) {
+            Path other = path;
+            sampled = event(path, 0.0, 0.0, 0.0);
+            kept = sampled->probability;
+            if (kept < 1.0) {
+                const auto otherwise = event(other, almost_one, 0.0, 0.0);
+                follow(other, *encounter, *otherwise);
+                other.weight *= static_cast<float>(otherwise->probability);
+                tally_.residue -= phase_.luminous(other.weight);
+                branches_.push_back(
+                    {other, History::caustic, flight.share * otherwise->probability});
+            }
+        } else {
+            const double u_lobe = random.uniform();
+            const double u1 = random.uniform();
+            const double u2 = random.uniform();
+            sampled = event(path, u_lobe, u1, u2);
+        }
+        if (!sampled || (reach_ == Reach::first_scattering && !sampled->specular)) {
+            tally_.absorbed_by_object[object] += flux_lm_;
+            return false;
+        }
+        const bool turned_hero = sampled->hero_only && !path.hero_only;
+        follow(path, *encounter, *sampled);
+        factor *= turned_hero ? sampled->weight[path.hero] / spectral::lane_count
+                              : live_max(path, sampled->weight);
+        path.weight *= static_cast<float>(kept);
+        flight.share *= kept;
+        const double scattered_lm = phase_.luminous(path.weight);
+        if (!std::isfinite(scattered_lm)) {
+            tally_.numerical += flux_lm_;
+            return false;
+        }
+        (lossless ? tally_.residue : tally_.absorbed_by_object[object]) += flux_lm_ - scattered_lm;
+        flux_lm_ = scattered_lm;
+        if (!sampled->specular) {
+            flight.history = History::indirect;
+        } else if (flight.history == History::direct) {
+            flight.history = History::caustic;
+        }
+
+        const Fate fate = roulette(path, factor, random);
+        if (fate == Fate::trapped) {
+            tally_.trapped += flux_lm_;
+            return false;
+        }
+        if (fate == Fate::ended_by_roulette) {
+            tally_.residue += flux_lm_;
+            return false;
+        }
+        const double scaled_lm = phase_.luminous(path.weight);
+        tally_.residue += flux_lm_ - scaled_lm;
+        flux_lm_ = scaled_lm;
+        return true;
+    }
+
+    const Phase& phase_;
+    bool common_heroes_;
+    Reach reach_;
+    const SensorPlanes* planes_;
+    std::uint32_t light_;
+    ForwardTally& tally_;
+    const std::function<void(const Photon&)>& arrive_;
+    double flux_lm_ = 0.0;          // of the flight
+    std::vector<Flight> branches_;  // still to be followed
+};
+
 }  // namespace
 
 void ForwardTally::operator+=(const ForwardTally& other) {
@@ -47,100 +211,13 @@ void ForwardTally::operator+=(const ForwardTally& other) {
 void trace_forward(const Phase& phase, const Emission& emission, std::uint32_t index, Reach reach,
                    const SensorPlanes* planes, ForwardTally& tally,
                    const std::function<void(const Photon&)>& arrive) {
-    const Stage& stage = phase.stage;
-    const SceneParts& parts = stage.parts();
     RandomStream random = emission.random(index);
     const Departure departure = emission.depart(index, random);
-    const auto light = static_cast<std::uint32_t>(departure.light);
-    Path path = emitted_path(phase, departure, emission.common_heroes(), random);
-    History history = History::direct;
-    double flux_lm = phase.luminous(path.weight);
-    tally.emitted += flux_lm;
-    const auto on_common_lane = [&] { return path.hero_only && emission.common_heroes(); };
-
-    while (true) {
-        const auto encounter = next_encounter(phase, path);
-        ++tally.segments;
-        if (planes && history != History::direct) {
-            const double length_m =
-                encounter ? (encounter->point.position - path.ray.origin).norm() : infinity;
-            const ObjectId medium = path.media.acting(parts);
-            planes->crossings(path.ray, length_m, [&](const SurfacePoint& point) {
-                const double way_m = (point.position - path.ray.origin).norm();
-                arrive({point, path.ray.direction, path.weight * phase.transmittance(medium, way_m),
-                        history, on_common_lane(), light});
-            });
-        }
-        if (!encounter) {
-            tally.escaped += flux_lm;
-            return;
-        }
-        const ObjectId solid = path.media.acting(parts);
-        float factor = 1.0f;
-        if (phase.absorbs(solid)) {
-            path.weight *= encounter->transmittance;
-            const double left_lm = phase.luminous(path.weight);
-            tally.absorbed_by_solid[solid] += flux_lm - left_lm;
-            flux_lm = left_lm;
-            factor = live_max(path, encounter->transmittance);
-        }
-        const ObjectId object = encounter->point.object;
-        (encounter->wo.z() > 0.0 ? tally.received_front : tally.received_back)[object] += flux_lm;
-        if (!encounter->consistent) {
-            tally.inconsistent += flux_lm;
-            return;
-        }
-        if (encounter->bsdf == pass_through) {
-            pass(path, *encounter);
-            continue;
-        }
-        if (stage.scatters(encounter->bsdf)) {
-            arrive({encounter->point, path.ray.direction, path.weight, history, on_common_lane(),
-                    light});
-            // A surface with both kinds of lobes lets the path go on by the specular one.
-        }
-        const SurfaceOptics at = optics_at(phase, *encounter, path);
-        const double u_lobe = random.uniform();
-        const double u1 = random.uniform();
-        const double u2 = random.uniform();
-        const Bsdf& bsdf = parts.bsdfs[encounter->bsdf];
-        const auto sampled = sample(bsdf, at, encounter->wo, u_lobe, u1, u2, Transport::flux);
-        if (!sampled || (reach == Reach::first_scattering && !sampled->specular)) {
-            tally.absorbed_by_object[object] += flux_lm;
-            return;
-        }
-        const bool turned_hero = sampled->hero_only && !path.hero_only;
-        follow(path, *encounter, *sampled);
-        factor *= turned_hero ? sampled->weight[path.hero] / spectral::lane_count
-                              : live_max(path, sampled->weight);
-        const double scattered_lm = phase.luminous(path.weight);
-        if (!std::isfinite(scattered_lm)) {
-            tally.numerical += flux_lm;
-            return;
-        }
-        // A smooth boundary takes nothing: the change is the luck of choosing lane and lobe.
-        const bool lossless = std::holds_alternative<SmoothDielectric>(bsdf);
-        (lossless ? tally.residue : tally.absorbed_by_object[object]) += flux_lm - scattered_lm;
-        flux_lm = scattered_lm;
-        if (!sampled->specular) {
-            history = History::indirect;
-        } else if (history == History::direct) {
-            history = History::caustic;
-        }
-
-        const Fate fate = roulette(path, factor, random);
-        if (fate == Fate::trapped) {
-            tally.trapped += flux_lm;
-            return;
-        }
-        if (fate == Fate::ended_by_roulette) {
-            tally.residue += flux_lm;
-            return;
-        }
-        const double scaled_lm = phase.luminous(path.weight);
-        tally.residue += flux_lm - scaled_lm;
-        flux_lm = scaled_lm;
-    }
+    const Path path = emitted_path(phase, departure, emission.common_heroes(), random);
+    tally.emitted += phase.luminous(path.weight);
+    ForwardTrace(phase, emission.common_heroes(), reach, planes,
+                 static_cast<std::uint32_t>(departure.light), tally, arrive)
+        .trace({path, History::direct, emission.guided() ? departure.weight : 0.0}, random);
 }
 
 }  // namespace lucerna::optics

@@ -169,3 +169,60 @@ TEST_CASE("Guided photons carry the light of a small mirror", "[analytic]") {
     CHECK(guided.standard_error() < 0.2 * plain.standard_error());
     CHECK(spread.standard_error() < guided.standard_error());
 }
+
+TEST_CASE("Heavy guided rays go both ways at glass", "[analytic]") {
+    // A beam falls straight onto a plate: 2 R / (1 + R) of it come back. The guide was told that
+    // 1/16 of the choices are of use, so that rays elsewhere carry 4 times their natural flux or
+    // so.
+    constexpr double n = 1.5, flux_lm = 100.0;
+    SceneBuilder scene;
+    scene.solid("plate", Box{Placement::Identity(), {1.0, 1.0, 0.01}}, scene.medium(n));
+    const Vec3 down = -Vec3::UnitZ();
+    scene.light("beam", BeamLight{Disk{{0.5, 0.5, 0.5}, down, 0.1}, down}, flux_lm);
+    scene.receiver(scene.object("room", Sphere{{0.5, 0.5, 0.0}, 2.0}, scene.diffuse(0.5)));
+    const Stage stage(scene.parts);
+    std::vector<RayOfUse> teachers;
+    for (std::uint32_t i = 0; i < 1 << 14; ++i) {
+        RandomStream random(1, 0, RandomPurpose::test, i);
+        Departure ray;
+        for (double& u : ray.u) u = random.uniform();
+        teachers.push_back({ray, ray.u[0] < 0.25 && ray.u[1] < 0.25 ? 1.0 : 0.0});
+    }
+    const EmissionGuide guide(std::array{flux_lm}, teachers);
+
+    constexpr std::uint32_t phases = 32, rays = 4096;
+    Estimate up, all;
+    double heaviest_emitted = 0.0, heaviest_reflected = 0.0;  // over the natural flux
+    for (std::uint32_t number = 0; number < phases; ++number) {
+        const Phase phase(stage, 1, number);
+        const Emission emission(phase, RandomPurpose::caustic, guide);
+        ForwardTally tally(stage.parts());
+        double up_lm = 0.0, all_lm = 0.0;
+        for (std::uint32_t i = 0; i < rays; ++i) {
+            RandomStream random = emission.random(i);
+            heaviest_emitted = std::max(heaviest_emitted, emission.depart(i, random).weight);
+            trace_forward(phase, emission, i, Reach::first_scattering, nullptr, tally,
+                          [&](const Photon& photon) {
+                              const double photon_lm = phase.luminous(photon.flux);
+                              all_lm += photon_lm;
+                              if (photon.point.position.z() < 0.0) return;
+                              up_lm += photon_lm;
+                              heaviest_reflected =
+                                  std::max(heaviest_reflected, photon_lm / flux_lm);
+                          });
+        }
+        up.add(up_lm / rays);
+        all.add(all_lm / rays);
+        CHECK(tally.emitted - tally.absorbed_by_object[1] - tally.residue ==
+              Approx(0.0).margin(1e-6 * tally.emitted));
+    }
+    const double r = square((n - 1.0) / (n + 1.0));
+    const double reflected_lm = 2.0 * r / (1.0 + r) * flux_lm;
+    test::check_mean(up.value(), up.standard_error(), reflected_lm, {0.05});
+    test::check_mean(all.value(), all.standard_error(), flux_lm, {0.05});
+    // Twin: as much light as if only the upper side reflected.
+    CHECK_FALSE(test::agrees(up.value(), up.standard_error(), r * flux_lm));
+    CHECK(heaviest_emitted > 3.0);
+    // By the luck of one reflection it would carry as much.
+    CHECK(heaviest_reflected < 0.25);
+}

@@ -61,8 +61,8 @@ enum class Reach { first_scattering, whole_path };
 
 /// Traces ray number `index` of a trace and gives every arrival at a scattering surface to
 /// `arrive`. With `first_scattering` the path ends there, and a guided ray that carries more flux
-/// than most goes both ways at smooth boundaries. Rays are unbiased samples of the lights' flux; the sum
-/// over n rays divided by n estimates it.
+/// than most goes both ways at smooth boundaries. Rays are unbiased samples of the lights' flux;
+/// the sum over n rays divided by n estimates it.
 /// @param planes  virtual planes of sensors whose crossings count as arrivals too, or nullptr.
 void trace_forward(const Phase& phase, const Emission& emission, std::uint32_t index, Reach reach,
                    const SensorPlanes* planes, ForwardTally& tally,

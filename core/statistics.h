@@ -31,11 +31,11 @@ struct Uncertain {
 ///
 /// The phase is the statistical unit: photons and wavelengths are shared within it, so an error bar
 /// taken inside a phase would be too small. `bias` runs beside the value: the kernel bias of the
-/// same phase as measured from two radii of the same photons. The value that is reported has the
-/// measured bias taken off, and the noise of the correction is part of the spread over phases. What
-/// is left is of fourth order in the radius where the light is smooth. Beside an edge that the wide
-/// kernel reaches and the narrow one does not, half of the measured bias is left, which is taken as
-/// its bound.
+/// same phase as a wide and a narrow kernel tell it from the same photons. The value that is
+/// reported has the measured bias taken off, and the noise of the correction is part of the spread
+/// over phases. What is left is of fourth order in the radius where the light is smooth. Beside an
+/// edge at 0.3 radii or further up to half of the measured bias is left, which is taken as its
+/// bound.
 class Estimate {
 public:
     void add(double value, double bias = 0.0);

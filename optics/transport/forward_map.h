@@ -20,10 +20,11 @@ inline std::uint32_t kernel_patch(const Stage& stage, const SurfacePoint& p) {
 /// True if q lies in the kernel of p; both have the same kernel patch.
 bool in_kernel(const Stage& stage, const SurfacePoint& p, const SurfacePoint& q, double radius_m);
 
-/// Areas over which the kernel of p collects at the full and at the inner radius [m2].
+/// Areas over which the kernel of p collects, and its narrow one: that within the inner radius, or
+/// in a flat disc the integral of its weights, which is the whole area [m2].
 struct KernelAreas {
     double full, inner;
-    bool flat_disc = false;  ///< whether the narrow kernel is a flat, whole disc's
+    bool flat_disc = false;  ///< whole, and without way along the surface that is not straight
 };
 KernelAreas kernel_areas(const Stage& stage, const SurfacePoint& p, double radius_m);
 

@@ -93,8 +93,10 @@ TEST_CASE("Limits of the run do not end the runs with shifted inputs at other ph
     runs.run(sphere("0.95 ± 0.5", "1000 lm ± 5 %"), {"--accuracy", "0.5%", "--time", "2s"});
     const json report = runs.report();
     CHECK(report["uncertain_inputs"].size() == 2);
-    // A busy machine may finish a single phase in that time, and warn that it has no error.
+    INFO(report["warnings"].dump());
     CHECK_THAT(report["warnings"].dump(), !Contains("interrupted"));
+    // A busy machine may finish a single phase in that time, and warn that it has no error.
+    if (report["phases"] > 1) CHECK(report["warnings"].empty());
 }
 
 TEST_CASE("A number that is used twice is one input", "[cli]") {

@@ -128,4 +128,29 @@ double Estimate::expanded_uncertainty(double coverage) const {
     return corrected().expanded_uncertainty(coverage);
 }
 
+void StepBias::add(const Vec3& slope, const Vec3& step) {
+    ++count_;
+    slope_sum_ += slope;
+    sum_ += step;
+    sum_of_squares_ += step.cwiseAbs2();
+}
+
+void StepBias::merge(const StepBias& other) {
+    count_ += other.count_;
+    slope_sum_ += other.slope_sum_;
+    sum_ += other.sum_;
+    sum_of_squares_ += other.sum_of_squares_;
+}
+
+double StepBias::beyond_noise() const {
+    if (count_ < 2) return 0.0;
+    constexpr double variances_of_noise = 2.0;
+    constexpr double left_if_it_points_away = 0.25;
+    double noise = 0.0;
+    for (int i = 0; i < 3; ++i) noise += variance_of_mean(sum_[i], sum_of_squares_[i], count_);
+    const double mean_square = (sum_ / static_cast<double>(count_)).squaredNorm();
+    const double bias = std::sqrt(std::max(0.0, mean_square - variances_of_noise * noise));
+    return sum_.dot(slope_sum_) > 0.0 ? bias : left_if_it_points_away * bias;
+}
+
 }  // namespace lucerna

@@ -89,7 +89,7 @@ Json quantity_json(const optics::Quantity& quantity, const std::vector<std::stri
     json["bias"] = number(estimate.bias(), quantity.name + " bias");
     json["bias_standard_error"] =
         number(estimate.bias_standard_error(), quantity.name + " bias_standard_error");
-    json["bias_left"] = estimate.bias_left();
+    json["bias_left"] = quantity.result().bias_left;
     json["uncorrected"] = {
         {"value", estimate.mean()},
         {"standard_error",

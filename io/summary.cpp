@@ -39,12 +39,11 @@ std::string quantities_text(const optics::Result& result) {
     std::vector<std::vector<std::string>> rows;
     for (std::size_t i = 0; i < std::min(shown, result.quantities.size()); ++i) {
         const optics::Quantity& quantity = result.quantities[i];
-        const Estimate& estimate = quantity.estimate;
-        rows.push_back(
-            {quantity.name, quantity.quantity,
-             measured_value(estimate.value(), estimate.expanded_uncertainty(report_coverage)) +
-                 " " + quantity.unit,
-             colour_text(quantity)});
+        const Uncertain value = quantity.result();
+        rows.push_back({quantity.name, quantity.quantity,
+                        measured_value(value.value, value.expanded_uncertainty(report_coverage)) +
+                            " " + quantity.unit,
+                        colour_text(quantity)});
     }
     std::string text =
         fmt::format("\nQuantities, value ± U ({:.0f} %)\n", 100.0 * report_coverage) +

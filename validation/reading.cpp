@@ -42,7 +42,13 @@ Read colour_temperature_k(std::size_t i) {
 }
 
 Read sensor(std::size_t i) {
-    return [i](const optics::Result& result) { return reading(result.quantities.at(i).estimate); };
+    return [i](const optics::Result& result) {
+        const optics::Quantity& quantity = result.quantities.at(i);
+        Reading r = reading(quantity.result());
+        r.uncorrected_value = quantity.estimate.mean();
+        r.uncorrected_standard_error = quantity.estimate.mean_standard_error();
+        return r;
+    };
 }
 
 Read image_mean(std::size_t i) {

@@ -399,11 +399,13 @@ private:
         if (caustic) {
             GatherPoint cut = at;
             if (region) cut.region = &*region;
+            cut.tells_steps = !camera_rays_;
             if (scatterings_ == 0) cut.but_of = rays_.looks_for;
             sum += maps_.caustic.gather(phase_, maps_.caustic_radii, cut);
         }
         if (indirect) {
             if (region) narrowed.region = &*region;
+            narrowed.tells_steps = !camera_rays_;
             const Gathered found = maps_.indirect.gather(phase_, maps_.indirect_radii, narrowed);
             kernel_bias_ += phase_.luminous(path_.weight * found.bias);
             sum += found;
@@ -413,6 +415,12 @@ private:
 
     void add(const Gathered& gathered, const Lanes& weight) {
         readings_.add(phase_, bin_, weight * gathered.radiance, weight * gathered.bias);
+        if (camera_rays_) return;
+        const auto luminous = [&](const PerAxis& moment) {
+            return Vec3(phase_.luminous(weight * moment[0]), phase_.luminous(weight * moment[1]),
+                        phase_.luminous(weight * moment[2]));
+        };
+        readings_.add_steps(bin_, luminous(gathered.slope), luminous(gathered.step));
     }
 
     void store(const Encounter& encounter, std::uint8_t accepts) {

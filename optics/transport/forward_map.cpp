@@ -173,35 +173,60 @@ Gathered ForwardMap::gather(const Phase& phase, const Radii& radii, const Gather
     if (areas.full == pi * radius_m * radius_m && is_straight(stage, at.point)) {
         areas = {areas.full, areas.full, true};
     }
-    KernelSums sum;
+    // Of the light that arrives on one side.
+    struct Sums : KernelSums {
+        PerAxis slope = zero_per_axis, step = zero_per_axis;
+    };
+    Sums sum;
     bool found = false;
-    const auto add = [&](KernelSums& to, const Lanes& light, const Candidate& candidate,
-                         double weight) {
+    const bool tells_steps = at.tells_steps && areas.flat_disc;
+    const auto add = [&](Sums& to, const Lanes& light, const Candidate& candidate,
+                         const Photon& photon, double weight) {
         found = true;
         const bool halved = candidate.on_common_lane && at.optics.hero_only;
         const Lanes part = halved ? Lanes(light * weight_of_common_heroes) : light;
         to.full += part;
         to.narrow += static_cast<float>(weight) * part;
+        if (!tells_steps) return;
+        const Vec3 way = (photon.point.position - at.point.position) / radius_m;
+        const auto of_step = static_cast<float>(1.0 - 1.5 * way.squaredNorm());
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Lanes moment = static_cast<float>(way[static_cast<Eigen::Index>(i)]) * part;
+            to.slope[i] += moment;
+            to.step[i] += of_step * moment;
+        }
     };
     if (std::holds_alternative<Diffuse>(at.bsdf)) {
         // All light from a side is scattered alike.
-        KernelSums above, below;
+        Sums above, below;
         for_each_in_kernel(stage, at, cell_m, radius_m, areas.flat_disc,
                            [&](const Candidate& candidate, const Photon& photon, double weight) {
-                               add(candidate.above ? above : below, photon.flux, candidate, weight);
+                               add(candidate.above ? above : below, photon.flux, candidate, photon,
+                                   weight);
                            });
         const Lanes from_above = scattered(Vec3::UnitZ()), from_below = scattered(-Vec3::UnitZ());
         sum.full = above.full * from_above + below.full * from_below;
         sum.narrow = above.narrow * from_above + below.narrow * from_below;
+        for (std::size_t i = 0; i < 3; ++i) {
+            sum.slope[i] = above.slope[i] * from_above + below.slope[i] * from_below;
+            sum.step[i] = above.step[i] * from_above + below.step[i] * from_below;
+        }
     } else {
         for_each_in_kernel(stage, at, cell_m, radius_m, areas.flat_disc,
                            [&](const Candidate& candidate, const Photon& photon, double weight) {
                                const Vec3 wi = kernel_direction(at.frame, photon);
-                               add(sum, photon.flux * scattered(wi), candidate, weight);
+                               add(sum, photon.flux * scattered(wi), candidate, photon, weight);
                            });
     }
     if (!found) return {};
-    return sum.over(areas, radius_m, rays_);
+    Gathered gathered = sum.over(areas, radius_m, rays_);
+    if (!tells_steps) return gathered;
+    const double per_sum = 1.0 / (rays_ * areas.full);
+    for (std::size_t i = 0; i < 3; ++i) {
+        gathered.slope[i] = static_cast<float>(per_sum) * sum.slope[i];
+        gathered.step[i] = static_cast<float>(bias_per_moment_of_step * per_sum) * sum.step[i];
+    }
+    return gathered;
 }
 
 }  // namespace lucerna::optics

@@ -74,9 +74,9 @@ void widen_around_sensors(const TraceContext& context, const Settings& settings,
                                           mask(History::caustic), rays, unused),
                             rays};
     };
-    plan.caustic_radii = widened_around(context.stage, context.planes, plan.caustic_radii,
-                                        pilot(pilot_phase - pilot_phases - 2),
-                                        pilot(pilot_phase - pilot_phases - 3), points, accuracy);
+    plan.caustic_radii = widened_around(
+        context.stage, context.planes, plan.caustic_radii, pilot(pilot_phase - pilot_phases - 2),
+        pilot(pilot_phase - pilot_phases - 3), points, accuracy, plan.caustic_rays);
 }
 
 // Radii and rays of the maps, from the rays of a pilot phase.

@@ -37,12 +37,21 @@ double median_square_distance(const std::vector<Arrival>& points) {
 }
 
 // Flux within limit_m, limit_m / sqrt 2, limit_m / 2, ... of a point, the sum of its squares, and
-// its first moment about the point, in units of the limit.
+// its first and third moment about the point, in units of the limit.
 constexpr std::size_t radius_steps = 32;  // the last is 2e-5 of the first
 struct LightByRadius {
-    LightByRadius() { moment.fill(Vec3::Zero()); }
     std::array<double, radius_steps + 1> flux{}, squares{};
-    std::array<Vec3, radius_steps + 1> moment;
+    std::array<Vec3, radius_steps + 1> moment = zeros(), third_moment = zeros();
+
+    static std::array<Vec3, radius_steps + 1> zeros() {
+        std::array<Vec3, radius_steps + 1> vectors;
+        vectors.fill(Vec3::Zero());
+        return vectors;
+    }
+    // Sum of flux times x (1 - 3/2 x^2 / r^2), as in kernels: of a step, but not of a slope.
+    Vec3 moment_of_step(std::size_t i) const {
+        return moment[i] - 1.5 * std::ldexp(1.0, static_cast<int>(i)) * third_moment[i];
+    }
 };
 
 LightByRadius light_around(const Vec3& point, const std::vector<Arrival>& photons, double limit_m) {
@@ -56,11 +65,13 @@ LightByRadius light_around(const Vec3& point, const std::vector<Arrival>& photon
         light.flux[step] += photon.flux;
         light.squares[step] += photon.flux * photon.flux;
         light.moment[step] += photon.flux * way;
+        light.third_moment[step] += photon.flux * square * way;
     }
     for (std::size_t i = radius_steps; i > 0; --i) {
         light.flux[i - 1] += light.flux[i];
         light.squares[i - 1] += light.squares[i];
         light.moment[i - 1] += light.moment[i];
+        light.third_moment[i - 1] += light.third_moment[i];
     }
     return light;
 }
@@ -121,16 +132,14 @@ double radius_of_small_bias(const std::vector<Arrival>& photons, const std::vect
     return radius_m;
 }
 
-// The radius of least error at the points, 0 without photons. Two independent measurements of the
-// bias have its square as the expectation of their product, whatever their noise. Narrow kernels
-// tell little of it; but it falls with the radius at least as fast as beside a kink, in proportion,
-// so that what a wide kernel shows bounds the narrower ones. A run has the light of many pilots, so
-// that its noise weighs less than that of one; to 1 % it has the light of hundreds.
+// The radius of least error at the points after as many phases as it takes to know them to the
+// accuracy, 0 without photons. Errors are what they add to U: noise, and what the correction of the
+// bias leaves (Estimate::bias_left, StepBias).
 //
-// A step that runs through the middle of a kernel shows at no two radii, though the point beside it
-// is off by half of its height h. But it makes the light lopsided: with r the radius, its first
-// moment is h r^3 2 / 3. A steady slope does that as well and has no bias, so that only a tenth of
-// what the moment might mean counts.
+// Two independent measurements of the bias have its square as the expectation of their product,
+// whatever their noise. Narrow kernels tell little of it; but it falls with the radius at least as
+// fast as beside a kink, in proportion, so that what a wide kernel shows bounds the narrower ones,
+// unless they surely show more. A step shows by its moment, and is not expected where it does not.
 //
 // Noise is told by the photons of the place: where rays are guided, those elsewhere may be a
 // thousand times as heavy.
@@ -138,22 +147,30 @@ double radius_of_small_bias(const std::vector<Arrival>& photons, const std::vect
 // All errors are those of the irradiance at the points, not in shares of what a kernel holds: a
 // wide one beside bright light would be favoured for having much of that. Where the points are
 // brighter than what lies around, it is their own irradiance that a bias is a share of.
+//
+// @param pilots_per_phase  rays of a pilot over those of a phase.
 double radius_of_least_error(const std::vector<Arrival>& one, const std::vector<Arrival>& other,
-                             const std::vector<Vec3>& points, double limit_m, double accuracy) {
+                             const std::vector<Vec3>& points, double limit_m, double accuracy,
+                             double pilots_per_phase) {
     constexpr double enough_photons = 8.0;  // of equal flux, to tell the irradiance
-    // Of a kernel's flux, if all of the moment over its radius is that of a step: h / 2 pi r^2.
-    constexpr double error_per_moment = 0.75 * pi;
-    constexpr double share_of_steps = 0.1;
-    // Of the accuracy that is asked for: a bias below it matters less than what narrower kernels
-    // cost.
-    constexpr double small_bias = 1.0 / 3.0;
-    const double weight_of_noise = std::min(1.0 / 8.0, square(accuracy / 0.057));
+    constexpr double expansion = 1.96;      // to 95 %
+    constexpr double bias_left = 0.5;
+    // Light with much structure at once has steps that point away from where it is brighter.
+    constexpr double step_left_if_away = 0.5;
+    // In standard deviations of a product of two measurements if photons are random: what is taken
+    // for luck, and from where on a bias or step is sure.
+    constexpr double luck = 0.5, sure = 2.0;
+    // Of the narrow kernel over that of the even one: the mean of the square of its weights.
+    constexpr double variance_of_correction = 4.8;
+    // Runs look first after 16 phases, and stop at the second look; far beyond the most it is time
+    // that ends them.
+    constexpr double least_phases = 19.0, most_phases = 256.0;
     struct Step {
         double area = 0.0;         // of the kernel, over that of the widest
         double flux = 0.0;         // of one kernel of a point
         double variance = 0.0;     // of that flux
         double bias_square = 0.0;  // of that flux
-        double step_square = 0.0;  // of its moment over its radius
+        double step_square = 0.0;  // of its moment of a step over its radius
         double irradiance() const { return flux / area; }
     };
     std::vector<Step> steps(radius_steps);
@@ -169,7 +186,10 @@ double radius_of_least_error(const std::vector<Arrival>& one, const std::vector<
             steps[i].variance += 0.5 * share * (a.squares[i] + b.squares[i]);
             steps[i].bias_square +=
                 share * 4.0 * (a.flux[i] - 2.0 * a.flux[i + 1]) * (b.flux[i] - 2.0 * b.flux[i + 1]);
-            steps[i].step_square += share * a.moment[i].dot(b.moment[i]) / steps[i].area;
+            const Vec3 of_a = a.moment_of_step(i), of_b = b.moment_of_step(i);
+            const bool away = (of_a + of_b).dot(a.moment[i] + b.moment[i]) < 0.0;
+            steps[i].step_square +=
+                share * (away ? square(step_left_if_away) : 1.0) * of_a.dot(of_b) / steps[i].area;
         }
     }
     if (!(steps[0].flux > 0.0)) return 0.0;
@@ -177,32 +197,47 @@ double radius_of_least_error(const std::vector<Arrival>& one, const std::vector<
     for (const Step& step : steps) {
         if (square(step.flux) > enough_photons * step.variance) at_points = step.irradiance();
     }
-    double best_m = 0.0;
-    double least = infinity;
-    double bound = infinity;  // of the square of the bias
-    double radius_m = limit_m;
+    struct Error {
+        double noise_square;  // of a phase, expanded
+        double bias_square;
+    };
+    std::vector<Error> errors;
+    double bound = infinity;   // of the square of the bias
     double of_a_photon = 0.0;  // flux
     for (const Step& step : steps) {
-        // Half a standard deviation of the product, if photons are random, is taken for luck: it is
-        // far above what noise adds to the error, and would else narrow kernels without a reason.
-        const double of_luck = 2.0 * step.variance;
-        const double shown = std::max(0.0, step.bias_square - of_luck) / square(step.area);
         const double brighter =
             step.flux > 0.0 ? std::max(1.0, at_points / step.irradiance()) : 1.0;
-        bound = std::min(0.5 * bound, square(brighter) * shown);
+        const double per_flux = square(brighter / step.area);
+        // A bias is a sum of photons with weights of 2 and -2.
+        const double deviation = 4.0 * step.variance;
+        const double shown = std::max(0.0, step.bias_square);
+        bound = std::max(std::min(0.5 * bound, per_flux * (shown + luck * deviation)),
+                         per_flux * (shown - sure * deviation));
+        // Mean of x^2 (1 - 3/2 x^2)^2 over the disc: 1 / 32 along each of two axes.
+        const double deviation_of_step = std::numbers::sqrt2 / 32.0 * step.variance;
+        const double of_step = std::max(0.0, step.step_square - sure * deviation_of_step) *
+                               square(bias_per_moment_of_step / step.area);
         // A kernel without photons is not known to have no noise.
         if (step.flux > 0.0) of_a_photon = step.variance / step.flux;
         const double variance =
             std::max(0.5 * square(of_a_photon), step.variance) / square(step.area);
-        // Less one standard deviation of a product of moments, if photons are random.
-        const double lucky_step = std::numbers::sqrt2 / 4.0 * step.variance;
-        const double of_step = std::max(0.0, step.step_square - lucky_step) *
-                               square(share_of_steps * error_per_moment / step.area);
-        const double bias =
-            std::max(0.0, bound + of_step - square(small_bias * accuracy * at_points));
-        const double error = weight_of_noise * variance + bias;
-        if (error < least) {
-            least = error;
+        errors.push_back({square(expansion) * variance_of_correction * pilots_per_phase * variance,
+                          std::max(square(bias_left) * bound, of_step)});
+    }
+    const double asked_square = square(accuracy * at_points);
+    double phases = most_phases;
+    for (const Error& error : errors) {
+        if (error.bias_square < asked_square)
+            phases = std::min(phases, error.noise_square / (asked_square - error.bias_square));
+    }
+    phases = std::max(least_phases, phases);
+    double best_m = 0.0;
+    double least = infinity;
+    double radius_m = limit_m;
+    for (const Error& error : errors) {
+        const double all = error.noise_square / phases + error.bias_square;
+        if (all < least) {
+            least = all;
             best_m = radius_m;
         }
         radius_m /= std::numbers::sqrt2;
@@ -278,7 +313,7 @@ Radii wide_radii(const Stage& stage, const SensorPlanes& planes, const PilotPhot
 
 Radii widened_around(const Stage& stage, const SensorPlanes& planes, const Radii& radii,
                      const PilotPhotons& one, const PilotPhotons& other,
-                     std::span<const ReadPoint> points, double accuracy) {
+                     std::span<const ReadPoint> points, double accuracy, std::uint32_t rays) {
     const auto of_one = arrivals_by_patch(stage, planes, one);
     const auto of_other = arrivals_by_patch(stage, planes, other);
     std::vector<double> widened;
@@ -288,7 +323,8 @@ Radii widened_around(const Stage& stage, const SensorPlanes& planes, const Radii
     const auto of_least_error = [&](std::uint32_t patch, const std::vector<Vec3>& positions,
                                     double limit_m) {
         const double radius_m =
-            radius_of_least_error(of_one[patch], of_other[patch], positions, limit_m, accuracy);
+            radius_of_least_error(of_one[patch], of_other[patch], positions, limit_m, accuracy,
+                                  static_cast<double>(one.rays) / rays);
         return radius_m > 0.0 ? std::max(least * radii[patch], radius_m) : radii[patch];
     };
     // No kernel reaches the wall beside its point, so that the search starts there.

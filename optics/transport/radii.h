@@ -67,16 +67,16 @@ Radii narrow_radii(const Stage& stage, const SensorPlanes& planes, const PilotPh
 /// and the bias allow.
 Radii wide_radii(const Stage& stage, const SensorPlanes& planes, const PilotPhotons& pilot);
 
-/// The same with other kernels around points that are to be read with little error: as wide as
-/// makes the sum of the squares of noise and bias least, but at least half as wide as they were; on
-/// surfaces in the mean over the points of a patch, on sensor planes at each point by itself. Two
-/// pilots that are independent of each other tell the square of the bias by a product, whatever the
-/// noise of each is.
-/// @param accuracy  relative expanded uncertainty that is asked for: the higher it is, the more
-///                  light the run has, and the less its noise weighs.
+/// The same with other kernels around points that are to be read with little error: such that the
+/// accuracy is reached after the fewest phases, but at least half as wide as they were; on surfaces
+/// in the mean over the points of a patch, on sensor planes at each point by itself. Two pilots
+/// that are independent of each other, of as many rays each, tell the square of the bias by a
+/// product, whatever the noise of each is.
+/// @param accuracy  relative expanded uncertainty that is asked for.
+/// @param rays      of a phase.
 Radii widened_around(const Stage& stage, const SensorPlanes& planes, const Radii& radii,
                      const PilotPhotons& one, const PilotPhotons& other,
-                     std::span<const ReadPoint> points, double accuracy);
+                     std::span<const ReadPoint> points, double accuracy, std::uint32_t rays);
 
 /// Number of forward rays of a phase for which kernels of surfaces hold about `photons_per_kernel`
 /// photons, in the mean over the photons of the pilot trace; 0 without photons.

@@ -54,8 +54,11 @@ std::size_t bins_of(const Observer& observer) {
 
 }  // namespace
 
-PhaseReadings::PhaseReadings(std::size_t bins, std::size_t spectral_bins)
-    : values_(bins), spectral_bins_(spectral_bins), spectral_(bins * spectral_bins) {}
+PhaseReadings::PhaseReadings(std::size_t bins, std::size_t sensor_bins, std::size_t spectral_bins)
+    : values_(bins),
+      steps_(sensor_bins),
+      spectral_bins_(spectral_bins),
+      spectral_(bins * spectral_bins) {}
 
 void PhaseReadings::add(const Phase& phase, std::size_t bin, const Lanes& radiance) {
     Value& value = values_[bin];
@@ -86,15 +89,12 @@ void PhaseReadings::add(const Phase& phase, std::size_t bin, const Lanes& radian
 
 Readings::Readings(const SceneParts& parts, const Settings& settings)
     : spectral_bins_(static_cast<std::size_t>(settings.spectral_bins)) {
-    std::size_t bins = 0;
     for (std::size_t i = 0; i < parts.observers.size(); ++i) {
         const bool camera = std::holds_alternative<Camera>(parts.observers[i]);
         const std::size_t count = bins_of(parts.observers[i]);
         if (count == 0) continue;
-        observers_.push_back({i, bins, count});
+        observers_.push_back({i, 0, count});
         is_camera_.push_back(camera);
-        first_sensor_bin_.push_back(sensor_bins_);
-        if (!camera) sensor_bins_ += count;
         means_.emplace_back();
         if (camera) {
             const Camera& view = std::get<Camera>(parts.observers[i]);
@@ -103,9 +103,17 @@ Readings::Readings(const SceneParts& parts, const Settings& settings)
             means.height = static_cast<std::size_t>(view.height);
             means.tiles.resize(tiles_along(means.width) * tiles_along(means.height));
         }
-        bins += count;
     }
-    sensors_ = BatchMeans(3 * sensor_bins_ + 3);
+    std::size_t bins = 0;
+    for (const bool cameras : {false, true}) {
+        for (std::size_t i = 0; i < observers_.size(); ++i) {
+            if (is_camera_[i] != cameras) continue;
+            observers_[i].first_bin = bins;
+            bins += observers_[i].count;
+        }
+        if (!cameras) steps_.resize(bins);
+    }
+    sensors_ = BatchMeans(3 * steps_.size() + 3);
     for (const Light& light : parts.lights) {
         const spectral::Xyz xyz = spectral::tristimulus(parts.spectra[light.flux_w_per_nm]);
         emission_ += Vec3(xyz.x, xyz.y, xyz.z);
@@ -181,18 +189,20 @@ void Readings::merge(const Readings& other) {
         spectral_sum_[i] += other.spectral_sum_[i];
     }
     sensors_.merge(other.sensors_);
+    for (std::size_t bin = 0; bin < steps_.size(); ++bin) {
+        steps_[bin].merge(other.steps_[bin]);
+    }
 }
 
-void Readings::fold_sensors(const Phase& phase, const PhaseReadings& readings) {
+void Readings::fold_sensors(const Phase& phase, PhaseReadings& readings) {
     std::vector<double> values;
-    values.reserve(3 * sensor_bins_ + 3);
-    for (std::size_t i = 0; i < observers_.size(); ++i) {
-        if (is_camera_[i]) continue;
-        for (std::size_t bin = 0; bin < observers_[i].count; ++bin) {
-            const PhaseReadings::Value& value = readings.values_[observers_[i].first_bin + bin];
-            values.insert(values.end(),
-                          {value.x - value.x_bias, value.y - value.y_bias, value.z - value.z_bias});
-        }
+    values.reserve(3 * steps_.size() + 3);
+    for (std::size_t bin = 0; bin < steps_.size(); ++bin) {
+        const PhaseReadings::Value& value = readings.values_[bin];
+        values.insert(values.end(),
+                      {value.x - value.x_bias, value.y - value.y_bias, value.z - value.z_bias});
+        steps_[bin].add(readings.steps_[bin].slope, readings.steps_[bin].step);
+        readings.steps_[bin] = {};
     }
     Lanes emission = Lanes::Zero();
     for (const Light& light : phase.stage.parts().lights) {
@@ -260,6 +270,12 @@ double Readings::delta() const {
     return square > 0.0 ? std::sqrt(variance / square) : 0.0;
 }
 
+Uncertain Readings::result_of_sensor(std::size_t bin) const {
+    Uncertain result = luminance_[bin].corrected();
+    result.bias_left = std::max(result.bias_left, steps_[bin].beyond_noise());
+    return result;
+}
+
 double Readings::worst_sensor(const SceneParts& parts, const Settings& targets) const {
     double worst = 0.0;
     for (std::size_t i = 0; i < observers_.size(); ++i) {
@@ -270,10 +286,10 @@ double Readings::worst_sensor(const SceneParts& parts, const Settings& targets) 
         if (degrees < 1.0) return infinity;
         const double t = student_t(target_coverage, degrees);
         for (std::size_t bin = 0; bin < observers_[i].count; ++bin) {
-            const Estimate& estimate = luminance_[observers_[i].first_bin + bin];
+            const Uncertain result = result_of_sensor(observers_[i].first_bin + bin);
             const double expanded =
-                std::hypot(t * estimate.standard_error(), target_coverage * estimate.bias_left());
-            worst = std::max(worst, target.excess(estimate.value(), expanded));
+                std::hypot(t * result.standard_error, target_coverage * result.bias_left);
+            worst = std::max(worst, target.excess(result.value, expanded));
         }
     }
     return worst;
@@ -336,7 +352,7 @@ std::optional<Colour> Readings::colour(std::size_t sensor_bin) const {
     // exact for grey scenes and biased by O(1 / phases) of the phases' variance in others.
     const auto calibrated = [&](auto&& mean, std::size_t part) {
         return mean(first + part) * emission_[static_cast<Eigen::Index>(part)] /
-               mean(3 * sensor_bins_ + part);
+               mean(3 * steps_.size() + part);
     };
     const auto of_mean = [&](std::size_t part) {
         return calibrated([&](std::size_t i) { return sensors_.mean(i); }, part);
@@ -381,7 +397,8 @@ std::vector<Quantity> Readings::quantities(const SceneParts& parts) const {
         const auto report = [&](std::string name, const char* quantity, const char* unit,
                                 std::size_t bin) {
             quantities.push_back({std::move(name), quantity, unit, luminance_[bins.first_bin + bin],
-                                  colour(first_sensor_bin_[i] + bin)});
+                                  colour(bins.first_bin + bin),
+                                  steps_[bins.first_bin + bin].beyond_noise()});
         };
         if (const auto* points = std::get_if<IlluminancePoints>(&observer)) {
             for (std::size_t k = 0; k < bins.count; ++k) {
@@ -400,7 +417,7 @@ std::vector<DerivedQuantity> Readings::derived(const SceneParts& parts) const {
         const ObserverBins& bins = observers_[i];
         const auto* points = std::get_if<IlluminancePoints>(&parts.observers[bins.observer]);
         if (points == nullptr || bins.count < 2) continue;
-        const std::size_t first = first_sensor_bin_[i];
+        const std::size_t first = bins.first_bin;
         const auto y_of = [](std::size_t bin) { return 3 * bin + 1; };
         std::size_t least = 0;
         std::size_t greatest = 0;
@@ -427,24 +444,43 @@ std::vector<DerivedQuantity> Readings::derived(const SceneParts& parts) const {
             }
             return std::max(1.0, candidates);
         };
+        // What is left of biases of points is not correlated: on the dark side of a step it is
+        // light too many, on the bright one too few.
+        const auto bias_left = [&](std::size_t k) { return result_of_sensor(first + k).bias_left; };
+        double square_of_biases = 0.0;
+        for (std::size_t k = 0; k < bins.count; ++k) square_of_biases += square(bias_left(k));
+        const double bias_of_mean = std::sqrt(square_of_biases) / static_cast<double>(bins.count);
+        const auto relative = [](double bias, double value) {
+            return value > 0.0 ? bias / value : 0.0;
+        };
         const auto report = [&](const char* what, const char* quantity, const char* unit,
-                                Uncertain result, double candidates) {
+                                Uncertain result, double candidates, double bias) {
             result.candidates = candidates;
+            result.bias_left = bias;
             derived.push_back({points->name + ": " + what, quantity, unit, result});
         };
         const double of_least = candidates_for(least);
         const double of_greatest = candidates_for(greatest);
-        report("mean", "average illuminance", "lx", sensors_.of(mean_of), 1.0);
-        report("minimum", "minimum illuminance", "lx", sensors_.of(at(least)), of_least);
-        report("maximum", "maximum illuminance", "lx", sensors_.of(at(greatest)), of_greatest);
-        report("uniformity U0", "illuminance uniformity, minimum / average", "1",
-               sensors_.of([&](auto&& mean) { return mean(y_of(first + least)) / mean_of(mean); }),
-               of_least);
-        report("diversity Ud", "illuminance diversity, minimum / maximum", "1",
-               sensors_.of([&](auto&& mean) {
-                   return mean(y_of(first + least)) / mean(y_of(first + greatest));
-               }),
-               of_least * of_greatest);
+        report("mean", "average illuminance", "lx", sensors_.of(mean_of), 1.0, bias_of_mean);
+        report("minimum", "minimum illuminance", "lx", sensors_.of(at(least)), of_least,
+               bias_left(least));
+        report("maximum", "maximum illuminance", "lx", sensors_.of(at(greatest)), of_greatest,
+               bias_left(greatest));
+        const double of_value = relative(bias_left(least), sensors_.mean(y_of(first + least)));
+        const auto ratio_to = [&](auto&& denominator) {
+            return sensors_.of(
+                [&](auto&& mean) { return mean(y_of(first + least)) / denominator(mean); });
+        };
+        const auto bias_of_ratio = [&](const Uncertain& ratio, double bias, auto&& denominator) {
+            const double value = denominator([&](std::size_t part) { return sensors_.mean(part); });
+            return ratio.value * std::hypot(of_value, relative(bias, value));
+        };
+        const Uncertain uniformity = ratio_to(mean_of);
+        report("uniformity U0", "illuminance uniformity, minimum / average", "1", uniformity,
+               of_least, bias_of_ratio(uniformity, bias_of_mean, mean_of));
+        const Uncertain diversity = ratio_to(at(greatest));
+        report("diversity Ud", "illuminance diversity, minimum / maximum", "1", diversity,
+               of_least * of_greatest, bias_of_ratio(diversity, bias_left(greatest), at(greatest)));
     }
     return derived;
 }
@@ -452,7 +488,8 @@ std::vector<DerivedQuantity> Readings::derived(const SceneParts& parts) const {
 std::size_t Readings::bytes() const {
     const std::size_t of_phase = sizeof(PhaseReadings::Value) + spectral_bins_ * sizeof(double);
     return luminance_.size() * (of_phase + sizeof(Estimate) + 2 * sizeof(double)) +
-           spectral_sum_.size() * sizeof(double) + sensors_.bytes();
+           spectral_sum_.size() * sizeof(double) + sensors_.bytes() +
+           steps_.size() * (sizeof(PhaseReadings::Step) + sizeof(StepBias));
 }
 
 }  // namespace lucerna::optics

@@ -10,7 +10,8 @@
 
 namespace lucerna::optics {
 
-/// The bins of one observer: pixels, points, or the one reading of a meter.
+/// The bins of one observer: pixels, points, or the one reading of a meter. Those of all sensors
+/// come before those of cameras.
 struct ObserverBins {
     std::size_t observer;
     std::size_t first_bin;
@@ -25,12 +26,19 @@ inline bool is_camera(const SceneParts& parts, const ObserverBins& bins) {
 /// time.
 class PhaseReadings {
 public:
-    PhaseReadings(std::size_t bins, std::size_t spectral_bins);
+    /// The first bins are those of sensors.
+    PhaseReadings(std::size_t bins, std::size_t sensor_bins, std::size_t spectral_bins);
 
     /// Adds to the value of a bin a radiance, or an irradiance [W/(m2 (sr) nm)].
     void add(const Phase& phase, std::size_t bin, const Lanes& radiance);
     /// Adds what a kernel collected, with its bias as measured in this phase, to a bin.
     void add(const Phase& phase, std::size_t bin, const Lanes& radiance, const Lanes& bias);
+
+    /// Adds to a bin of a sensor what tells of steps of light in a kernel: see Gathered.
+    void add_steps(std::size_t bin, const Vec3& slope, const Vec3& step) {
+        steps_[bin].slope += slope;
+        steps_[bin].step += step;
+    }
 
     /// Of a camera or meter, by now [cd/m2]; illuminance of points [lx].
     double luminance(std::size_t bin) const { return values_[bin].y; }
@@ -42,6 +50,10 @@ private:
         double x_bias = 0.0, y_bias = 0.0, z_bias = 0.0;
     };
     std::vector<Value> values_;
+    struct Step {
+        Vec3 slope = Vec3::Zero(), step = Vec3::Zero();
+    };
+    std::vector<Step> steps_;  // of the bins of sensors
     std::size_t spectral_bins_;
     std::vector<double> spectral_;  // [bin][spectral bin], W/(m2 sr)
 };
@@ -55,7 +67,7 @@ public:
     std::size_t bin_count() const { return luminance_.size(); }
 
     /// Readings of a phase, all of them zero.
-    PhaseReadings new_phase() const { return {luminance_.size(), spectral_bins_}; }
+    PhaseReadings new_phase() const { return {luminance_.size(), steps_.size(), spectral_bins_}; }
     /// Ends a phase: its values enter the estimates and are set back to zero.
     void fold(const Phase& phase, PhaseReadings& values, int threads);
     /// Joins the phases of an independent run of the same scene and settings.
@@ -72,6 +84,7 @@ public:
             for (double& sum : *sums) archive(sum);
         }
         archive(sensors_);
+        for (StepBias& step : steps_) archive(step);
     }
 
     std::vector<Image> images(const SceneParts& parts) const;
@@ -102,17 +115,17 @@ private:
 
     static void fold_means(const PhaseReadings& values, const ObserverBins& bins,
                            ImageMeans& means);
-    void fold_sensors(const Phase& phase, const PhaseReadings& readings);
+    void fold_sensors(const Phase& phase, PhaseReadings& readings);
     ImageError image_error(const ObserverBins& bins) const;
+    Uncertain result_of_sensor(std::size_t bin) const;
     std::optional<Colour> colour(std::size_t sensor_bin) const;
 
     std::vector<ObserverBins> observers_;
     std::vector<bool> is_camera_;    // per ObserverBins
     std::vector<ImageMeans> means_;  // per ObserverBins
     std::vector<Estimate> luminance_;
-    std::vector<double> x_sum_, z_sum_;          // kernel bias included
-    std::vector<std::size_t> first_sensor_bin_;  // per ObserverBins, among the bins of sensors
-    std::size_t sensor_bins_ = 0;
+    std::vector<double> x_sum_, z_sum_;  // kernel bias included
+    std::vector<StepBias> steps_;        // per bin of a sensor
     // X, Y, Z of each bin of a sensor, the kernel bias taken off, and last those of the emission of
     // all lights on the wavelengths of the phases.
     BatchMeans sensors_;

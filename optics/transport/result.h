@@ -1,6 +1,7 @@
 // What a simulation leaves behind.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -61,9 +62,15 @@ struct Quantity {
     std::string unit;      ///< "lx", "cd/m2", "lm"
     Estimate estimate;
     std::optional<Colour> colour{};  ///< where it has a meaning
+    /// Bias that a step of light within a kernel may have left, beyond noise; in the unit.
+    double bias_of_step = 0.0;
     InputChanges inputs{};
 
-    Uncertain result() const { return estimate.corrected(); }
+    Uncertain result() const {
+        Uncertain result = estimate.corrected();
+        result.bias_left = std::max(result.bias_left, bias_of_step);
+        return result;
+    }
 };
 
 /// A number that follows from several quantities of one sensor, such as a uniformity.

@@ -164,6 +164,29 @@ TEST_CASE("What is left of a bias beside an edge lies within the interval", "[un
     CHECK(noisy.bias_left() == 0.0);
 }
 
+TEST_CASE("The bias of a step counts as far as noise does not explain it", "[unit]") {
+    // Along x 4, 6, 5: mean 5, variance of the mean 2 / 6; along y -1, 1, 0: the same.
+    const auto three_phases = [](const Vec3& slope) {
+        StepBias bias;
+        for (const double noise : {-1.0, 1.0, 0.0}) {
+            bias.add(slope, Vec3(5.0 + noise, noise, 0.0));
+        }
+        return bias;
+    };
+    const double beyond = std::sqrt(25.0 - 2.0 * (2.0 / 6.0 + 2.0 / 6.0));
+    CHECK_THAT(three_phases(Vec3(2, 0, 0)).beyond_noise(), WithinRel(beyond, 1e-13));
+    CHECK_THAT(three_phases(Vec3(-2, 0, 0)).beyond_noise(), WithinRel(0.25 * beyond, 1e-13));
+    StepBias joined = three_phases(Vec3(2, 0, 0));
+    joined.merge(three_phases(Vec3(2, 0, 0)));
+    // Twice as many: 4 / (6 * 5) each.
+    CHECK_THAT(joined.beyond_noise(),
+               WithinRel(std::sqrt(25.0 - 2.0 * (4.0 / 30.0 + 4.0 / 30.0)), 1e-13));
+    StepBias noisy;
+    CHECK(noisy.beyond_noise() == 0.0);
+    for (int i = 0; i < 100; ++i) noisy.add(Vec3(1, 0, 0), Vec3(i % 2 ? 1.0 : -1.0, 0.0, 0.0));
+    CHECK(noisy.beyond_noise() == 0.0);
+}
+
 TEST_CASE("The least of several candidates has a wider interval", "[unit]") {
     const Uncertain one{10.0, 0.5, 20.0};
     Uncertain of_five = one;

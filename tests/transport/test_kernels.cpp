@@ -44,10 +44,10 @@ namespace {
 
 constexpr double kernel_radius_m = 0.1;
 
-// What a kernel in the middle of a white plate gathers of photons on a fine grid, as irradiance:
+// What a kernel in the middle of a white plate gathers of photons on a fine grid:
 // E(x, y) with x and y in radii from the centre of the kernel.
 template <typename Field>
-std::pair<double, double> irradiance_and_bias(const Field& field) {
+Gathered gathered_of(const Field& field) {
     validation::SceneBuilder scene;
     const BsdfId paint = scene.diffuse(1.0);
     const ObjectId plate = scene.object("plate", Rectangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, paint);
@@ -75,10 +75,24 @@ std::pair<double, double> irradiance_and_bias(const Field& field) {
     const Frame frame(point.normal);
     const Vec3 wo = Vec3::UnitZ();
     const SurfaceOptics optics = optics_at(phase, no_object, no_object, false, 0);
-    const Gathered gathered =
-        map.gather(phase, radii, {point, frame, wo, stage.parts().bsdfs[paint], optics});
-    return {pi * static_cast<double>(gathered.radiance[0]),
-            pi * static_cast<double>(gathered.bias[0])};
+    return map.gather(phase, radii,
+                      {.point = point,
+                       .frame = frame,
+                       .wo = wo,
+                       .bsdf = stage.parts().bsdfs[paint],
+                       .optics = optics,
+                       .tells_steps = true});
+}
+
+// As irradiance.
+double of_white(const Lanes& radiance) {
+    return pi * static_cast<double>(radiance[0]);
+}
+
+template <typename Field>
+std::pair<double, double> irradiance_and_bias(const Field& field) {
+    const Gathered gathered = gathered_of(field);
+    return {of_white(gathered.radiance), of_white(gathered.bias)};
 }
 
 }  // namespace
@@ -125,6 +139,38 @@ TEST_CASE("What two kernels tell of the kernel bias bounds what an edge leaves o
             WithinAbs(1.0 - (std::acos(edge) - edge * std::sqrt(1.0 - edge * edge)) / pi, 0.002));
         CHECK_THAT(irradiance - bias, WithinAbs(1.0 - lost, 0.004));
         CHECK(std::abs(irradiance - bias - 1.0) < 0.5 * std::abs(bias));
+    }
+}
+
+TEST_CASE("What a kernel tells of steps is their error, and nothing of a slope", "[analytic]") {
+    // A step of height h through the middle leaves h / 2 on both sides, and points to the light.
+    for (const double sign : {1.0, -1.0}) {
+        const Gathered step =
+            gathered_of([&](double x, double) { return sign * x > 0.0 ? 3.0 : 1.0; });
+        CHECK_THAT(of_white(step.step[0]), WithinAbs(sign, 0.01));
+        CHECK_THAT(of_white(step.slope[0]), WithinAbs(sign * 4.0 / (3.0 * pi), 0.002));
+        CHECK(std::abs(of_white(step.step[1])) < 1e-4);
+        CHECK(std::abs(of_white(step.bias)) < 0.01);
+    }
+    // The mean of g x^2 over the disc is g / 4.
+    const Gathered slope = gathered_of([](double, double y) { return 2.0 + 0.8 * y; });
+    CHECK_THAT(of_white(slope.slope[1]), WithinAbs(0.2, 1e-3));
+    for (const Lanes& along : slope.step) CHECK(std::abs(of_white(along)) < 2e-3);
+}
+
+TEST_CASE("What a kernel tells of steps bounds what one leaves of the bias", "[analytic]") {
+    // Light ends at a straight line: it is read at up to 0.4 radii from it with an error of the
+    // step itself or less, beyond of a quarter.
+    for (const double edge : {0.05, 0.15, 0.25, 0.35, 0.45, 0.6, 0.75, 0.9}) {
+        const Gathered read = gathered_of([&](double x, double) { return x < edge ? 1.0 : 0.0; });
+        const double left = std::abs(of_white(read.radiance) - of_white(read.bias) - 1.0);
+        const double step = of_white(read.step[0]);
+        CAPTURE(edge, left, step);
+        CHECK(of_white(read.slope[0]) < 0.0);
+        CHECK((step < 0.0) == (edge < 0.4));
+        CHECK(left <= (edge < 0.4 ? 1.0 : 0.25) * std::abs(step));
+        // Twin: the measured bias alone bounds it only from 0.3 radii on.
+        CHECK((left > 0.5 * std::abs(of_white(read.bias))) == (edge < 0.3));
     }
 }
 

@@ -102,13 +102,15 @@ struct BsdfSample {
     Lanes weight;           ///< f |cos| / density, divided by the probability of the lobe chosen
     bool specular = false;  ///< a delta lobe; then pdf_solid_angle is 0 and not used
     double pdf_solid_angle = 0.0;  ///< density of wi among all scattering lobes, [1/sr]
-    /// With which a boundary chose this event; the weight has been divided by it. u_lobe = 0 and
-    /// u_lobe -> 1 give its two events, for callers that follow both.
+    /// With which a boundary chose this event; the weight has been divided by it.
     double probability = 1.0;
     /// The refraction differed between wavelengths: all lanes but the hero are 0 in `weight`, the
     /// hero's is multiplied by lane_count if the path carried all lanes before.
     bool hero_only = false;
 };
+
+/// The u_lobe that give the two events of a smooth boundary, for callers that follow both.
+inline constexpr double one_event = 0.0, other_event = 1.0 - 0x1p-32;
 
 /// f of the scattering (not specular) lobes [1/sr]; 0 where there are none. `transport` matters for
 /// transmission between media only; f then includes the (n_wo / n_wi)^2 of radiance.

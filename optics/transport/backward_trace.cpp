@@ -252,14 +252,14 @@ private:
     // What is seen in and through a smooth boundary is followed both ways, unless it matters
     // little: a lamp seen by reflection of a few percent would else be a rare bright dot.
     void branch(const Encounter& encounter, const Bsdf& bsdf, const SurfaceOptics& optics) {
-        const double almost_one = 1.0 - 0x1p-32;
         Path path = path_;
-        const auto one = sample(bsdf, optics, encounter.wo, 0.0, 0.0, 0.0, Transport::radiance);
+        const auto one =
+            sample(bsdf, optics, encounter.wo, one_event, 0.0, 0.0, Transport::radiance);
         if (one->probability < 1.0) {
             SurfaceOptics of_other = optics;
             if (of_other.polarisation) of_other.polarisation = &path.polarisation;
             const auto other =
-                sample(bsdf, of_other, encounter.wo, almost_one, 0.0, 0.0, Transport::radiance);
+                sample(bsdf, of_other, encounter.wo, other_event, 0.0, 0.0, Transport::radiance);
             follow(path, encounter, *other);
             path.weight *= static_cast<float>(other->probability);
             branches_.push_back({path, importance_ * other->probability});

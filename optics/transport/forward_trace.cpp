@@ -33,7 +33,6 @@ Path emitted_path(const Phase& phase, const Departure& departure, bool common_he
 // reflections led to where the others are light would make most of the noise there, and be found by
 // few phases.
 constexpr double heavy = 0.05;
-constexpr double almost_one = 1.0 - 0x1p-32;
 
 // A forward ray between two surfaces.
 struct Flight {
@@ -127,10 +126,10 @@ private:
         double kept = 1.0;  // share of the flux, the rest goes the other way
         if (lossless && reach_ == Reach::first_scattering && flight.share > heavy) {
             Path other = path;
-            sampled = event(path, 0.0, 0.0, 0.0);
+            sampled = event(path, one_event, 0.0, 0.0);
             kept = sampled->probability;
             if (kept < 1.0) {
-                const auto otherwise = event(other, almost_one, 0.0, 0.0);
+                const auto otherwise = event(other, other_event, 0.0, 0.0);
                 follow(other, *encounter, *otherwise);
                 other.weight *= static_cast<float>(otherwise->probability);
                 tally_.residue -= phase_.luminous(other.weight);

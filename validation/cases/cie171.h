@@ -25,7 +25,7 @@ struct Points {
     }
 };
 
-/// Daylight through openings: 5.4 and 5.9 to 5.14.
+/// Daylight through openings, and light through panes: 5.4, 5.5 and 5.9 to 5.14.
 std::vector<Case> cie171_daylight_cases();
 
 }  // namespace lucerna::validation

@@ -99,6 +99,48 @@ Case flux_conservation(double side_m) {
             checks};
 }
 
+// 5.5: beams through a clear pane, each under its own angle and over its own strip of floor.
+Case directional_transmittance(double index, double absorption_per_m) {
+    constexpr double thickness_m = 0.006, beam_m = 0.1, strip_m = 1.0, height_m = 0.5;
+    const std::vector<double> angles_deg{0.0, 30.0, 45.0, 60.0, 75.0};
+    const double width_m = static_cast<double>(angles_deg.size()) * strip_m;
+    SceneBuilder scene;
+    Placement place = Placement::Identity();
+    place.translate(Vec3(-3.0, 0.0, 0.0));
+    scene.solid("pane", Box{place, {6.0, width_m, thickness_m}},
+                scene.medium(index, absorption_per_m));
+    std::vector<Check> checks;
+    for (std::size_t i = 0; i < angles_deg.size(); ++i) {
+        const double angle_rad = angles_deg[i] * pi / 180.0;
+        const Vec3 direction(std::sin(angle_rad), 0.0, -std::cos(angle_rad));
+        const double from_m = static_cast<double>(i) * strip_m;
+        const Vec3 middle = Vec3(0.0, from_m + 0.5 * strip_m, thickness_m) -
+                            height_m / std::cos(angle_rad) * direction;
+        scene.light("beam", BeamLight{Disk{middle, direction, beam_m}, direction}, lamp_flux_lm);
+        scene.receiver(scene.object(
+            "strip", Rectangle{{-3.0, from_m, -height_m}, {6.0, 0, 0}, {0, strip_m, 0}},
+            scene.black()));
+        const double value = lamp_flux_lm * truth::polarised_transmittance(
+                                                index, angle_rad, absorption_per_m * thickness_m);
+        checks.push_back(
+            {.name = fmt::format("{:g} deg", angles_deg[i]),
+             .quantity = "luminous flux",
+             .unit = "lm",
+             .truth = value,
+             .truth_error = 1e-9 * value,
+             .read = sensor(2 * i),
+             .sweep = SweepPoint{fmt::format("flux through the pane of n = {:g}", index),
+                                 "angle of incidence [deg]", angles_deg[i]}});
+    }
+    return {fmt::format("cie171/5.5-absorption-{:g}", absorption_per_m),
+            fmt::format("after 5.5: beams through a pane of {:g} mm, n = {:g}, absorption {:g} /m",
+                        1e3 * thickness_m, index, absorption_per_m),
+            "Fresnel with s and p apart, (1 - R)^2 a / (1 - R^2 a^2), a = exp(-alpha d / cos th')",
+            scene.parts,
+            effort(64, 20000),
+            checks};
+}
+
 // 5.9 and 5.11: sky component of a uniform sky through unglazed openings; points face up or stand
 // where they see only the opening.
 Case sky_component(const std::string& id, const std::string& title, std::size_t wall,
@@ -399,6 +441,8 @@ std::vector<Case> cie171_daylight_cases() {
     std::vector<Case> cases{
         flux_conservation(1.0),
         flux_conservation(3.0),
+        directional_transmittance(1.52, 0.0),
+        directional_transmittance(1.52, 30.0),
         sky_component("cie171/5.9-1x1", "after 5.9: roof opening of 1 x 1 m, 4 x 4 x 3 m", 5,
                       {1.5, 2.5, 1.5, 2.5}, below_roof(), false),
         sky_component("cie171/5.9-3x3", "after 5.9: roof opening of 3 x 3 m, 4 x 4 x 3 m", 5,

@@ -6,6 +6,7 @@
 
 #include "optics/transport/emission_pilot.h"
 #include "optics/transport/sensor_pilot.h"
+#include "optics/transport/sensor_radii.h"
 
 namespace lucerna::optics {
 namespace {

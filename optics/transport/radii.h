@@ -1,7 +1,6 @@
 // Integration radii of the photon maps: adapted to each patch by pilot rays, then shrinking.
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include "optics/transport/forward_trace.h"
@@ -35,12 +34,6 @@ private:
     std::vector<double> of_points_m_;
 };
 
-/// A point that a sensor reads caustics at.
-struct ReadPoint {
-    SurfacePoint point;
-    std::uint32_t sensor_point;  ///< its index if it lies on a plane
-};
-
 /// Photons of a trace with `rays` rays whose results are not used but for what follows.
 struct PilotPhotons {
     std::vector<Photon> photons;
@@ -66,17 +59,6 @@ Radii narrow_radii(const Stage& stage, const SensorPlanes& planes, const PilotPh
 /// The same for seen surfaces whatever number of photons their kernels hold: as wide as the limits
 /// and the bias allow.
 Radii wide_radii(const Stage& stage, const SensorPlanes& planes, const PilotPhotons& pilot);
-
-/// The same with other kernels around points that are to be read with little error: such that the
-/// accuracy is reached after the fewest phases, but at least half as wide as they were; on surfaces
-/// in the mean over the points of a patch, on sensor planes at each point by itself. Two pilots
-/// that are independent of each other, of as many rays each, tell the square of the bias by a
-/// product, whatever the noise of each is.
-/// @param accuracy  relative expanded uncertainty that is asked for.
-/// @param rays      of a phase.
-Radii widened_around(const Stage& stage, const SensorPlanes& planes, const Radii& radii,
-                     const PilotPhotons& one, const PilotPhotons& other,
-                     std::span<const ReadPoint> points, double accuracy, std::uint32_t rays);
 
 /// Number of forward rays of a phase for which kernels of surfaces hold about `photons_per_kernel`
 /// photons, in the mean over the photons of the pilot trace; 0 without photons.

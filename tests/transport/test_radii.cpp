@@ -1,5 +1,5 @@
 // How wide the kernels are that sensors read caustics with.
-#include "optics/transport/radii.h"
+#include "optics/transport/sensor_radii.h"
 #include "tests/support/truth_checks.h"
 
 using namespace lucerna;

@@ -1,0 +1,62 @@
+#include "optics/transport/pilot_light.h"
+
+#include <algorithm>
+
+#include "optics/transport/forward_map.h"
+
+namespace lucerna::optics {
+namespace {
+
+// In a unit in which photons of equal flux have 1.
+void normalise(std::vector<Arrival>& photons) {
+    double sum = 0.0, squares = 0.0;
+    for (const Arrival& photon : photons) {
+        sum += photon.flux;
+        squares += photon.flux * photon.flux;
+    }
+    if (!(squares > 0.0)) return;
+    for (Arrival& photon : photons) photon.flux *= sum / squares;
+}
+
+}  // namespace
+
+LightByRadius LightByRadius::around(const Vec3& point, const std::vector<Arrival>& photons,
+                                    double limit_m) {
+    LightByRadius light;
+    for (const Arrival& photon : photons) {
+        const Vec3 way = (photon.position - point) / limit_m;
+        const double square = way.squaredNorm();
+        if (square >= 1.0 || square == 0.0) continue;
+        const auto step = static_cast<std::size_t>(std::min(-std::log2(square), double{steps}));
+        light.flux[step] += photon.flux;
+        light.squares[step] += photon.flux * photon.flux;
+        light.moment[step] += photon.flux * way;
+        light.third_moment[step] += photon.flux * square * way;
+    }
+    for (std::size_t i = steps; i > 0; --i) {
+        light.flux[i - 1] += light.flux[i];
+        light.squares[i - 1] += light.squares[i];
+        light.moment[i - 1] += light.moment[i];
+        light.third_moment[i - 1] += light.third_moment[i];
+    }
+    return light;
+}
+
+std::vector<std::vector<Arrival>> arrivals_by_patch(const Stage& stage, const SensorPlanes& planes,
+                                                    const PilotPhotons& pilot) {
+    std::vector<std::vector<Arrival>> arrivals(stage.patch_count() + planes.count());
+    for (const Photon& photon : pilot.photons) {
+        arrivals[kernel_patch(stage, photon.point)].push_back(
+            {photon.point.position, static_cast<double>(photon.flux.sum())});
+    }
+    for (auto& of_patch : arrivals) normalise(of_patch);
+    return arrivals;
+}
+
+double limit_of_patch_m(const Stage& stage, const SensorPlanes& planes, std::uint32_t patch) {
+    return patch >= stage.patch_count() ? planes.margin_m()
+                                        : std::min(stage.caster().scene_radius_m() / 20.0,
+                                                   std::sqrt(stage.patch_area_m2(patch)) / 8.0);
+}
+
+}  // namespace lucerna::optics

@@ -3,10 +3,12 @@
 #include "spectral/colorimetry.h"
 #include "spectral/illuminants.h"
 #include "tests/support/truth_checks.h"
+#include "validation/truth/pane_shadow.h"
 #include "validation/truth/polygon_light.h"
 
 using namespace lucerna;
 using namespace lucerna::optics;
+using Catch::Matchers::WithinRel;
 using validation::SceneBuilder;
 
 namespace {
@@ -153,4 +155,68 @@ TEST_CASE("Caustic light beside a wall does not read low", "[analytic]") {
         // Twin: a quarter of the kernel behind the wall.
         test::check_refutes(estimate, from(lamp) + 0.75 * rho * from(image));
     }
+}
+
+TEST_CASE("U of points beside a sharp shadow holds what the step of light leaves", "[analytic]") {
+    // A point light through a wide pane, and a screen. No ray finds the light, kernels read it.
+    constexpr truth::PaneShadow shadow{.intensity_cd = 100.0,
+                                       .lamp_height_m = 1.0,
+                                       .pane_thickness_m = 0.01,
+                                       .pane_index = 1.5,
+                                       .screen_height_m = 0.1,
+                                       .screen_edge_m = 0.2};
+    SceneBuilder scene;
+    scene.object("floor", Rectangle{{-2, -2, 0}, {4, 0, 0}, {0, 4, 0}}, scene.black());
+    scene.solid(
+        "pane",
+        Box{Placement(Eigen::Translation3d(-1.5, -1.5, 0.7)), {3.0, 3.0, shadow.pane_thickness_m}},
+        scene.medium(shadow.pane_index));
+    scene.object(
+        "screen",
+        Rectangle{{shadow.screen_edge_m, -1, shadow.screen_height_m}, {0.6, 0, 0}, {0, 2, 0}},
+        scene.black());
+    scene.light("lamp", PointLight{{0, 0, shadow.lamp_height_m}}, 4.0 * pi * shadow.intensity_cd);
+    std::vector<Vec3> positions;
+    for (const double beside_m : {0.0001, 0.0003, 0.001}) {
+        positions.emplace_back(shadow.shadow_edge_m() - beside_m, 0.0, 1e-4);
+    }
+    scene.points(positions, Vec3::UnitZ());
+    const Result result = test::run(scene, Method::combined, {64, 20000});
+    bool by_step = false, missed_without = false;
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        const Quantity& point = result.quantities[i];
+        const double off = std::abs(point.result().value - shadow.illuminance_lx(positions[i].x()));
+        CAPTURE(i, off, point.bias_of_step, point.estimate.expanded_uncertainty());
+        CHECK(off <= point.result().expanded_uncertainty());
+        by_step = by_step || point.result().bias_left > point.estimate.bias_left();
+        missed_without = missed_without || off > point.estimate.expanded_uncertainty();
+    }
+    CHECK(by_step);
+    CHECK(missed_without);  // the twin: noise and two kernels alone
+    // So do numbers that follow from the points.
+    const auto derived = [&](const char* what) -> const Uncertain& {
+        return std::ranges::find_if(
+                   result.derived,
+                   [&](const DerivedQuantity& d) { return d.name.find(what) != std::string::npos; })
+            ->result;
+    };
+    const Uncertain &least = derived("minimum"), &greatest = derived("maximum");
+    double squares = 0.0;
+    bool of_least = false;
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        const Uncertain point = result.quantities[i].result();
+        squares += square(point.bias_left);
+        of_least = of_least || (point.bias_left == least.bias_left &&
+                                std::abs(point.value / least.value - 1.0) < 1e-9);
+    }
+    CHECK(of_least);
+    const Uncertain &mean = derived("mean"), &uniformity = derived("U0"), &ratio = derived("Ud");
+    CHECK_THAT(mean.bias_left, WithinRel(std::sqrt(squares) / 3.0, 1e-9));
+    CHECK_THAT(
+        uniformity.bias_left / uniformity.value,
+        WithinRel(std::hypot(least.bias_left / least.value, mean.bias_left / mean.value), 1e-9));
+    CHECK_THAT(
+        ratio.bias_left / ratio.value,
+        WithinRel(std::hypot(least.bias_left / least.value, greatest.bias_left / greatest.value),
+                  1e-9));
 }

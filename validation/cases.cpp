@@ -20,6 +20,7 @@ constexpr std::array list{
     Family{"colour", "colour of CIE illuminants through the engine", colour_cases},
     Family{"polygon_light", "direct light of Lambertian surfaces", polygon_light_cases},
     Family{"closed_box", "interreflection between six different walls", closed_box_cases},
+    Family{"grids", "what follows from a grid of points: mean, extremes, uniformity", grid_cases},
     Family{"cornell_room", "interreflection in a room that loses light", cornell_room_cases},
     Family{"pixels", "single pixels by the default method, up to edges and feet", pixel_cases},
     Family{"point_source", "inverse square and cosine law, C-gamma tables and their rotations",

@@ -24,6 +24,7 @@ std::vector<Case> colour_cases();
 std::vector<Case> polygon_light_cases();
 std::vector<Case> closed_box_cases();
 std::vector<Case> cornell_room_cases();
+std::vector<Case> grid_cases();  // in cases/grids.cpp
 std::vector<Case> pixel_cases();
 std::vector<Case> point_source_cases();
 std::vector<Case> mirrors_cases();

@@ -51,6 +51,10 @@ Read sensor(std::size_t i) {
     };
 }
 
+Read derived(std::size_t i) {
+    return [i](const optics::Result& result) { return reading(result.derived.at(i).result); };
+}
+
 Read image_mean(std::size_t i) {
     return [i](const optics::Result& result) { return reading(result.images.at(i).mean); };
 }

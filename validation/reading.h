@@ -24,6 +24,9 @@ using Read = std::function<Reading(const optics::Result&)>;
 /// Of the i-th of Result::quantities: observers in their order, then front and back of each
 /// receiver.
 Read sensor(std::size_t i);
+/// Of the i-th of Result::derived: of each sensor of several points mean, minimum, maximum,
+/// uniformity U0 and diversity Ud.
+Read derived(std::size_t i);
 /// Of the i-th of Result::images: its mean luminance.
 Read image_mean(std::size_t i);
 /// Of the i-th of Result::images: the luminance of a pixel, row by row from the top left.

@@ -435,14 +435,17 @@ std::vector<DerivedQuantity> Readings::derived(const SceneParts& parts) const {
             return [&, k](auto&& mean) { return mean(y_of(first + k)); };
         };
         const auto candidates_for = [&](std::size_t chosen) {
-            const Estimate& best = luminance_[bins.first_bin + chosen];
-            double candidates = 0.0;
+            double candidates = 1.0;
             for (std::size_t k = 0; k < bins.count; ++k) {
-                const Estimate& other = luminance_[bins.first_bin + k];
-                const double noise = std::hypot(best.standard_error(), other.standard_error());
-                if (std::abs(other.value() - best.value()) <= rival_errors * noise) ++candidates;
+                // Points share photons and wavelengths, so that their difference is often known far
+                // better than they are.
+                const Uncertain apart = sensors_.of([&](auto&& mean) {
+                    return mean(y_of(first + k)) - mean(y_of(first + chosen));
+                });
+                const bool rival = std::abs(apart.value) <= rival_errors * apart.standard_error;
+                if (k != chosen && rival) ++candidates;
             }
-            return std::max(1.0, candidates);
+            return candidates;
         };
         // What is left of biases of points is not correlated: on the dark side of a step it is
         // light too many, on the bright one too few.

@@ -97,6 +97,27 @@ TEST_CASE("Uniformity and mean follow from all points together", "[analytic]") {
     }
 }
 
+TEST_CASE("Points are rivals for the least by the noise that they do not share", "[analytic]") {
+    // All points see the lamp by the same wavelengths, whose luck is most of the noise.
+    const double far_m = 1.0;
+    const auto candidates = [&](double apart_m) {
+        SceneBuilder scene;
+        scene.area_light(scene.object("lamp", Rectangle{corner, u, v}, scene.black()),
+                         lamp_luminance);
+        const std::vector<Vec3> points{{0, 0, 0}, {far_m, 0, 0}, {far_m + apart_m, 0, 0}};
+        scene.points(points, Vec3::UnitZ());
+        const Result result = test::run(scene, Method::combined, {60, 100});
+        if (apart_m > 0.0) {
+            const double own_noise = result.quantities[2].estimate.standard_error();
+            // Or each alone would tell them apart.
+            CHECK(illuminance(points[1]) - illuminance(points[2]) < 2.0 * own_noise);
+        }
+        return derived(result, "minimum").result.candidates;
+    };
+    CHECK(candidates(0.0005) == 1.0);
+    CHECK(candidates(0.0) == 2.0);  // the twin: alike in truth
+}
+
 TEST_CASE("The colour of a reading is that of the light that arrives", "[analytic]") {
     // Light A on red paint: X, Y, Z of the product by sums at 1 nm.
     const spectral::Spectrum red({360.0, 560.0, 620.0, 830.0}, {0.05, 0.08, 0.75, 0.85},

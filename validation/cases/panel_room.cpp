@@ -5,10 +5,6 @@
 namespace lucerna::validation {
 namespace {
 
-// Against solutions with 8 and 16 and with 12 and 24 cells, for points and large panels
-// (tests/validation/test_truths.cpp).
-constexpr double radiosity_error = 3e-4;
-
 Vec3 inward_normal(const truth::Panel& panel) {
     return (panel.plane_m == 0.0 ? 1.0 : -1.0) * Vec3::Unit(panel.axis);
 }

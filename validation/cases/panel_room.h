@@ -7,6 +7,10 @@
 
 namespace lucerna::validation {
 
+/// Bound of the relative error of the extrapolated truth: against solutions with 8 and 16 and with
+/// 12 and 24 cells, for points and large panels (tests/validation/test_truths.cpp).
+inline constexpr double radiosity_error = 3e-4;
+
 struct NamedPanel {
     std::string name;
     truth::Panel panel;  ///< those at coordinate 0 face up the axis, all others down

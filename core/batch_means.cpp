@@ -52,6 +52,18 @@ void BatchMeans::merge(const BatchMeans& other) {
     while (complete_batches_ > most_batches) join_pairs();
 }
 
+double BatchMeans::relative_slope(std::size_t value, std::size_t other) const {
+    const double mean_of_value = complete_[value] / static_cast<double>(complete_batches_);
+    const double mean_of_other = complete_[other] / static_cast<double>(complete_batches_);
+    double product = 0.0, square = 0.0;
+    for (std::size_t i = 0; i < complete_batches_; ++i) {
+        const double deviation = batch(i)[other] / mean_of_other - 1.0;
+        product += deviation * (batch(i)[value] / mean_of_value - 1.0);
+        square += deviation * deviation;
+    }
+    return square > 0.0 ? product / square : 0.0;
+}
+
 double BatchMeans::mean(std::size_t value) const {
     if (phases_ == 0) return 0.0;
     return (complete_[value] + open_[value] + outside_[value]) / static_cast<double>(phases_);

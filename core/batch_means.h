@@ -68,6 +68,10 @@ public:
         return result;
     }
 
+    /// How a value follows another from batch to batch: the coefficient of the regression of its
+    /// relative deviations on those of the other; 0 if that one is always the same.
+    double relative_slope(std::size_t value, std::size_t other) const;
+
     std::size_t bytes() const { return (batches_.size() + 3 * value_count_) * sizeof(double); }
 
     /// Saves to an archive or loads from one.

@@ -85,12 +85,21 @@ WavelengthSampler::WavelengthSampler(const Spectrum& emission, Dispersion disper
     cumulative_ = running_integral(density_);
 }
 
-WavelengthSet WavelengthSampler::sample(std::uint64_t seed, std::uint32_t phase) const {
+WavelengthSet WavelengthSampler::sample(std::uint64_t seed, std::uint32_t phase,
+                                        std::uint32_t part) const {
     RandomStream random(seed, phase, RandomPurpose::wavelengths, 0);
-    const double shift = random.uniform();
+    // Multiples of 1 / x and 1 / x^2, x^3 = x + 1, are spread evenly over the square (R. Schretter
+    // et al., "Golden ratio sequences for low-discrepancy sampling", JGT 16(2), 2012, for one
+    // dimension; two by the same root of the next degree).
+    constexpr double inverse_root = 0.75487766624669276;
+    const auto moved = [part](double u, double by) {
+        const double sum = u + part * by;
+        return sum - std::floor(sum);
+    };
+    const double shift = moved(random.uniform(), inverse_root);
 
     WavelengthSet set;
-    set.first_common = static_cast<int>(random.uniform() * 2.0);
+    set.first_common = static_cast<int>(moved(random.uniform(), inverse_root * inverse_root) * 2.0);
     for (int k = 0; k < lane_count; ++k) {
         const double wavelength_nm = quantile_nm((k + shift) / lane_count);
         const double interval_nm = 1.0 / (lane_count * pdf_per_nm(wavelength_nm));

@@ -53,13 +53,16 @@ public:
     /// Throws std::invalid_argument if it is negative anywhere in 360-830 nm or zero everywhere.
     explicit WavelengthSampler(const Spectrum& emission, Dispersion dispersion = Dispersion::none);
 
-    /// Wavelengths of a phase, in increasing order; depends on (seed, phase) only.
+    /// Wavelengths of a phase, in increasing order; depends on (seed, phase, part) only.
+    ///
+    /// Part 0 is the phase's common set. Any range of further parts, for rays that meet none of the
+    /// other direction, covers the spectrum evenly: their shifts are a Kronecker sequence.
     ///
     /// The shift of all strata and the common lanes are drawn anew for each phase: then phases are
     /// independent, and their spread states the error of their mean. (A sequence that fills the
     /// interval evenly over the phases would err less, but nothing in the run could tell by how
     /// much: stated errors of quiet readings would be several times too large.)
-    WavelengthSet sample(std::uint64_t seed, std::uint32_t phase) const;
+    WavelengthSet sample(std::uint64_t seed, std::uint32_t phase, std::uint32_t part = 0) const;
 
     /// Density per nm at a wavelength; integrates to 1 over [360, 830] nm, zero outside.
     double pdf_per_nm(double wavelength_nm) const;

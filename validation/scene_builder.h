@@ -35,6 +35,14 @@ struct SceneBuilder {
         return parts.add(std::move(medium));
     }
 
+    /// Without absorption.
+    optics::MediumId dispersive_medium(const spectral::Spectrum& index) {
+        const optics::MediumId id = medium(1.0);
+        parts.media[id].index = parts.add(index);
+        parts.media[id].dispersive = true;
+        return id;
+    }
+
     optics::ObjectId object(const std::string& name, optics::Shape shape, optics::BsdfId bsdf) {
         return parts.add(optics::Object{.name = name,
                                         .shape = std::move(shape),

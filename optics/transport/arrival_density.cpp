@@ -85,7 +85,8 @@ std::vector<std::vector<Arrival>> arrivals_by_patch(const Phase& phase, const Tr
         const Vec3 wi = frame.to_local(-photon.direction);
         const Vec2 u = numbers_of_disk_sample({wi.x(), wi.y()});
         arrivals[kernel_patch(context.stage, photon.point)].push_back(
-            {photon.point.position, u.x(), u.y(), phase.luminous(photon.flux), wi.z() > 0.0,
+            {photon.point.position, u.x(), u.y(),
+             luminous_flux(phase.wavelengths.luminance, photon), wi.z() > 0.0,
              photon.history == History::caustic ? photon.light : no_light});
     }
     return arrivals;

@@ -140,7 +140,13 @@ private:
 
     void gather_at_sensor(const IlluminancePoints& points, const SensorPlanes::Point& sensor) {
         at_sensor(points, sensor, [&](const GatherPoint& at) {
-            gather(at, collection_.sensor_gather, Lanes::Constant(static_cast<float>(pi)));
+            const Gathered found = gathered(at, collection_.sensor_gather);  // X, Y, Z: see Photon
+            constexpr auto weight = static_cast<float>(pi);
+            readings_.add_tristimulus(bin_, weight * found.radiance, weight * found.bias);
+            const auto luminous = [&](const PerAxis& moment) {
+                return Vec3(pi * Vec3(moment[0][1], moment[1][1], moment[2][1]));
+            };
+            readings_.add_steps(bin_, luminous(found.slope), luminous(found.step));
         });
     }
 
@@ -407,7 +413,9 @@ private:
             if (region) narrowed.region = &*region;
             narrowed.tells_steps = !camera_rays_;
             const Gathered found = maps_.indirect.gather(phase_, maps_.indirect_radii, narrowed);
-            kernel_bias_ += phase_.luminous(path_.weight * found.bias);
+            if (camera_rays_) {
+                kernel_bias_ += phase_.luminous(path_.weight * found.bias);
+            }
             sum += found;
         }
         return sum;
@@ -449,7 +457,7 @@ private:
     std::uint32_t bin_ = 0;
     BinRays rays_{};            // of the bin
     int cut_kernels_ = 0;       // by barriers, of those of a ray
-    double kernel_bias_ = 0.0;  // of what a ray gathered from the map of indirect light
+    double kernel_bias_ = 0.0;  // of what a ray of a camera gathered from the map of indirect light
     struct Branch {
         Path path;
         double importance;

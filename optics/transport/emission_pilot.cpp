@@ -94,13 +94,20 @@ EmissionGuide guide_of_caustics(const Phase& phase, const TraceContext& context,
         BackwardMap::Deposits found;
         map.find(photon, found);
         for (const auto& part : found.by_part) {
-            for (const auto& pair : part) use(pair.backward_photon);
+            for (const auto& pair : part) {
+                const BackwardPhoton& vertex = seen.vertices[pair.backward_photon];
+                // The map knows one radius for all points of a plane.
+                const bool within = vertex.point.object != no_object ||
+                                    (photon.point.position - vertex.point.position).norm() <
+                                        radii.of_point(vertex.bin);
+                if (within) use(pair.backward_photon);
+            }
         }
     };
 
     std::vector<double> light(throughputs.size());  // that each vertex finds
     for (const Photon& photon : photons.photons) {
-        const double flux_lm = phase.luminous(photon.flux);
+        const double flux_lm = luminous_flux(phase.wavelengths.luminance, photon);
         for_each_found(photon, [&](std::uint32_t i) { light[i] += throughputs[i] * flux_lm; });
     }
     std::vector<double> squares(seen.target_count());  // what a variance is compared with
@@ -114,18 +121,18 @@ EmissionGuide guide_of_caustics(const Phase& phase, const TraceContext& context,
         for (std::uint32_t i = first; i < first + rays_per_task; ++i) {
             RandomStream random = emission.random(i);
             rays[i].departure = emission.depart(i, random);
-            trace_forward(phase, emission, i, Reach::first_scattering, &context.planes, unused,
-                          [&](const Photon& photon) {
-                              if (photon.history != History::caustic) return;
-                              const double flux_lm = phase.luminous(photon.flux);
-                              for_each_found(photon, [&](std::uint32_t found) {
-                                  const double square_of_all = squares[seen.targets[found]];
-                                  if (square_of_all > 0.0) {
-                                      rays[i].use +=
-                                          square(throughputs[found] * flux_lm) / square_of_all;
-                                  }
-                              });
-                          });
+            trace_forward(
+                phase, emission, i, Reach::first_scattering, &context.planes, unused,
+                [&](const Photon& photon) {
+                    if (photon.history != History::caustic) return;
+                    const double flux_lm = luminous_flux(phase.wavelengths.luminance, photon);
+                    for_each_found(photon, [&](std::uint32_t found) {
+                        const double square_of_all = squares[seen.targets[found]];
+                        if (square_of_all > 0.0) {
+                            rays[i].use += square(throughputs[found] * flux_lm) / square_of_all;
+                        }
+                    });
+                });
         }
     });
     std::vector<double> fluxes_lm;

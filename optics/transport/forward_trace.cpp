@@ -81,8 +81,8 @@ private:
             const ObjectId medium = path.media.acting(parts);
             planes_->crossings(path.ray, length_m, [&](const SurfacePoint& point) {
                 const double way_m = (point.position - path.ray.origin).norm();
-                arrive_({point, path.ray.direction,
-                         path.weight * phase_.transmittance(medium, way_m), flight.history,
+                const Lanes flux = path.weight * phase_.transmittance(medium, way_m);
+                arrive_({point, path.ray.direction, phase_.tristimulus(flux), flight.history,
                          on_common_lane(), light_});
             });
         }

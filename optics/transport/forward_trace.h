@@ -27,11 +27,20 @@ constexpr std::uint8_t mask(History history) {
 struct Photon {
     SurfacePoint point;
     Vec3 direction;  ///< unit, along the flight of the light
-    Lanes flux;      ///< [W/nm] when divided by the number of rays of the trace
+    /// [W/nm] when divided by the number of rays of the trace. On planes of sensors, which read
+    /// nothing else, X, Y and Z [lm]: wavelengths of photons there need not be those of the phase.
+    Lanes flux;
     History history;
     bool on_common_lane = false;  ///< alone on it, see choose_common_hero()
     std::uint32_t light = 0;      ///< that it comes from
 };
+
+/// Luminous flux of a photon [lm].
+/// @param luminance  weights of the wavelengths of its ray.
+inline double luminous_flux(const Lanes& luminance, const Photon& photon) {
+    return static_cast<double>(photon.point.object == no_object ? photon.flux[1]
+                                                                : (photon.flux * luminance).sum());
+}
 
 /// Counts of a block of forward rays. All fluxes in lm, not yet divided by the number of rays.
 struct ForwardTally {

@@ -2,11 +2,11 @@
 
 namespace lucerna::optics {
 
-Phase::Phase(const Stage& stage_, std::uint64_t seed_, std::uint32_t number_)
+Phase::Phase(const Stage& stage_, std::uint64_t seed_, std::uint32_t number_, std::uint32_t part)
     : stage(stage_),
       seed(seed_),
       number(number_),
-      wavelengths(stage_.wavelengths().sample(seed_, number_)) {
+      wavelengths(stage_.wavelengths().sample(seed_, number_, part)) {
     spectra.reserve(stage.parts().spectra.size());
     for (const spectral::Spectrum& spectrum : stage.parts().spectra) {
         spectra.push_back(wavelengths.at(spectrum));

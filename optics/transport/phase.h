@@ -6,7 +6,9 @@
 namespace lucerna::optics {
 
 struct Phase {
-    Phase(const Stage& stage_, std::uint64_t seed_, std::uint32_t number_);
+    /// @param part  0: the wavelengths that all rays of the phase share. Else those of some of its
+    ///     rays which meet no other ones.
+    Phase(const Stage& stage_, std::uint64_t seed_, std::uint32_t number_, std::uint32_t part = 0);
 
     const Stage& stage;
     std::uint64_t seed;
@@ -27,6 +29,14 @@ struct Phase {
     /// Luminous quantity of spectral lanes: W/nm -> lm, W/(m2 sr nm) -> cd/m2.
     double luminous(const Lanes& spectral) const {
         return static_cast<double>((spectral * wavelengths.luminance).sum());
+    }
+    /// X, Y, Z of spectral lanes in the first three, Y as above.
+    Lanes tristimulus(const Lanes& spectral) const {
+        Lanes xyz = Lanes::Zero();
+        xyz[0] = (spectral * wavelengths.x).sum();
+        xyz[1] = (spectral * wavelengths.luminance).sum();
+        xyz[2] = (spectral * wavelengths.z).sum();
+        return xyz;
     }
 };
 

@@ -10,6 +10,9 @@ namespace lucerna::optics {
 namespace {
 
 constexpr std::uint32_t blocks_per_chunk = 64;  // deposits of a chunk are held at once
+// That share wavelengths where those of the phase would be too few: to look up all spectra for them
+// takes about a tenth of their time.
+constexpr std::uint32_t rays_of_own_wavelengths = 32;
 
 std::uint32_t block_count(std::uint32_t rays) {
     return (rays + forward_rays_per_block - 1) / forward_rays_per_block;
@@ -123,29 +126,51 @@ bool Plan::traces_secondary(const Stage& stage, const SensorPlanes& planes) cons
 std::vector<Photon> trace_photons(const Phase& phase, const TraceContext& context,
                                   const Emission& emission, Reach reach, std::uint8_t histories,
                                   std::uint32_t rays, ForwardTally& tally) {
+    const Stage& stage = context.stage;
+    const bool own_wavelengths =
+        reach == Reach::first_scattering && stage.disperses() && context.planes.count() > 0;
     const std::uint32_t blocks = block_count(rays);
-    std::vector<std::vector<Photon>> photons(blocks);
-    std::vector<ForwardTally> tallies(blocks, ForwardTally(context.stage.parts()));
-    for_each_block(blocks, context.threads, [&](std::size_t block) {
-        const auto first = static_cast<std::uint32_t>(block) * forward_rays_per_block;
-        for (std::uint32_t i = first; i < std::min(rays, first + forward_rays_per_block); ++i) {
-            trace_forward(phase, emission, i, reach, &context.planes, tallies[block],
-                          [&](const Photon& photon) {
-                              if (histories & mask(photon.history)) {
-                                  photons[block].push_back(photon);
+    const std::uint32_t tasks = own_wavelengths ? 2 * blocks : blocks;
+    std::vector<std::vector<Photon>> photons(tasks);
+    std::vector<ForwardTally> tallies(tasks, ForwardTally(stage.parts()));
+    const auto trace = [&](const Phase& of_rays, std::uint32_t first, std::uint32_t end,
+                           std::size_t task, bool surfaces, bool planes) {
+        for (std::uint32_t i = first; i < end; ++i) {
+            trace_forward(of_rays, emission, i, reach, planes ? &context.planes : nullptr,
+                          tallies[task], [&](const Photon& photon) {
+                              if ((histories & mask(photon.history)) &&
+                                  (surfaces || photon.point.object == no_object)) {
+                                  photons[task].push_back(photon);
                               }
                           });
         }
+    };
+    for_each_block(tasks, context.threads, [&](std::size_t task) {
+        const std::uint32_t first =
+            static_cast<std::uint32_t>(task) % blocks * forward_rays_per_block;
+        const std::uint32_t end = std::min(rays, first + forward_rays_per_block);
+        if (task < blocks) {
+            if (own_wavelengths && !stage.has_scattering()) return;
+            return trace(phase, first, end, task, true, !own_wavelengths);
+        }
+        for (std::uint32_t i = first; i < end; i += rays_of_own_wavelengths) {
+            const Phase own(stage, phase.seed, phase.number, i / rays_of_own_wavelengths + 1);
+            trace(own, i, std::min(end, i + rays_of_own_wavelengths), task, false, true);
+        }
     });
     std::vector<std::size_t> starts{0};
-    for (std::uint32_t block = 0; block < blocks; ++block) {
-        starts.push_back(starts.back() + photons[block].size());
-        tally += tallies[block];
+    for (std::uint32_t task = 0; task < tasks; ++task) {
+        starts.push_back(starts.back() + photons[task].size());
+        if (task < blocks) {
+            tally += tallies[task];
+        } else {
+            tally.segments += tallies[task].segments;
+        }
     }
     std::vector<Photon> all(starts.back());
-    for_each_block(blocks, context.threads, [&](std::size_t block) {
-        std::copy(photons[block].begin(), photons[block].end(),
-                  all.begin() + static_cast<std::ptrdiff_t>(starts[block]));
+    for_each_block(tasks, context.threads, [&](std::size_t task) {
+        std::copy(photons[task].begin(), photons[task].end(),
+                  all.begin() + static_cast<std::ptrdiff_t>(starts[task]));
     });
     return all;
 }

@@ -56,6 +56,9 @@ struct PhaseTrace {
 };
 
 /// Photons of the given histories, or-ed, of the rays of a forward trace, in the order of the rays.
+/// Behind dispersive glass a ray has a single wavelength, and a phase few of them: light that
+/// reaches planes of sensors before it scatters is traced once more, each block of rays with
+/// wavelengths of its own, and those photons come last.
 std::vector<Photon> trace_photons(const Phase& phase, const TraceContext& context,
                                   const Emission& emission, Reach reach, std::uint8_t histories,
                                   std::uint32_t rays, ForwardTally& tally);

@@ -47,7 +47,7 @@ std::vector<std::vector<Arrival>> arrivals_by_patch(const Stage& stage, const Se
     std::vector<std::vector<Arrival>> arrivals(stage.patch_count() + planes.count());
     for (const Photon& photon : pilot.photons) {
         arrivals[kernel_patch(stage, photon.point)].push_back(
-            {photon.point.position, static_cast<double>(photon.flux.sum())});
+            {photon.point.position, luminous_flux(pilot.luminance, photon)});
     }
     for (auto& of_patch : arrivals) normalise(of_patch);
     return arrivals;

@@ -12,8 +12,8 @@ namespace lucerna::optics {
 namespace {
 
 constexpr std::uint32_t min_pilot_rays = 1 << 14, max_pilot_rays = 1 << 15;
-// That tell how wide the kernels of sensors may be.
-constexpr std::uint32_t rays_to_widen = 1 << 18;
+// That tell how wide the kernels of sensors may be, for the guide and for good.
+constexpr std::uint32_t rays_to_learn_widths = 1 << 16, rays_to_widen = 1 << 18;
 constexpr double default_sensor_accuracy = 0.02;  // where none is asked for
 // What the choice of the collection for images is made from.
 constexpr std::uint32_t pilot_phases = 3;
@@ -46,9 +46,9 @@ std::uint32_t at_least_min(std::uint64_t rays) {
     return static_cast<std::uint32_t>(std::max<std::uint64_t>(min_forward_rays, rays));
 }
 
-// Kernels of caustics that sensors read.
-void widen_around_sensors(const TraceContext& context, const Settings& settings,
-                          const SeenPoints& seen, Plan& plan) {
+// Kernels of caustics that sensors read; false if none does.
+bool widen_around_sensors(const TraceContext& context, const Settings& settings,
+                          const SeenPoints& seen, std::uint32_t least_rays, Plan& plan) {
     constexpr std::size_t most_points = 16;  // of a target
     std::vector<ReadPoint> points;
     for (std::uint32_t target = 0; target < seen.target_count(); ++target) {
@@ -61,8 +61,8 @@ void widen_around_sensors(const TraceContext& context, const Settings& settings,
         const std::size_t step = std::max<std::size_t>(1, own.size() / most_points);
         for (std::size_t i = 0; i < own.size(); i += step) points.push_back(own[i]);
     }
-    if (points.empty()) return;
-    const std::uint32_t rays = std::max(plan.caustic_rays, rays_to_widen);
+    if (points.empty()) return false;
+    const std::uint32_t rays = std::max(plan.caustic_rays, least_rays);
     double accuracy = settings.sensor_accuracy.value_or(default_sensor_accuracy);
     for (const SensorTarget& target : settings.sensor_targets) {
         if (target.relative > 0.0) accuracy = std::min(accuracy, target.relative);
@@ -73,11 +73,12 @@ void widen_around_sensors(const TraceContext& context, const Settings& settings,
         ForwardTally unused(context.stage.parts());
         return PilotPhotons{trace_photons(phase, context, emission, Reach::first_scattering,
                                           mask(History::caustic), rays, unused),
-                            rays};
+                            rays, phase.wavelengths.luminance};
     };
     plan.caustic_radii = widened_around(
         context.stage, context.planes, plan.caustic_radii, pilot(pilot_phase - pilot_phases - 2),
         pilot(pilot_phase - pilot_phases - 3), points, accuracy, plan.caustic_rays);
+    return true;
 }
 
 // Radii and rays of the maps, from the rays of a pilot phase.
@@ -91,9 +92,9 @@ void choose_radii(const TraceContext& context, const Settings& settings, Plan& p
                                           min_pilot_rays, max_pilot_rays);
     const PilotPhotons photons{trace_photons(phase, context, Emission(phase, RandomPurpose::pilot),
                                              Reach::whole_path, all, rays, unused),
-                               rays};
+                               rays, phase.wavelengths.luminance};
     const auto of = [&](History history) {
-        PilotPhotons some{{}, rays};
+        PilotPhotons some{{}, rays, phase.wavelengths.luminance};
         for (const Photon& photon : photons.photons) {
             if (photon.history == history) some.photons.push_back(photon);
         }
@@ -119,8 +120,15 @@ void choose_radii(const TraceContext& context, const Settings& settings, Plan& p
             const Emission guided(phase, RandomPurpose::pilot, plan.caustic_guide);
             choose_caustic_radii({trace_photons(phase, context, guided, Reach::first_scattering,
                                                 mask(History::caustic), rays, unused),
-                                  rays});
-            widen_around_sensors(context, settings, seen, plan);
+                                  rays, phase.wavelengths.luminance});
+            // Wide kernels read light that a guide for narrow ones has left to few heavy rays.
+            // Without dispersion these are spread so evenly that another guide would do harm.
+            if (stage.disperses() &&
+                widen_around_sensors(context, settings, seen, rays_to_learn_widths, plan)) {
+                plan.caustic_guide =
+                    guide_of_caustics(phase, context, seen, plan.caustic_radii, photons);
+            }
+            widen_around_sensors(context, settings, seen, rays_to_widen, plan);
         }
     }
     plan.hidden_radii = narrow_radii(stage, context.planes, photons,

@@ -38,6 +38,7 @@ private:
 struct PilotPhotons {
     std::vector<Photon> photons;
     std::uint32_t rays;
+    Lanes luminance;  ///< weights of the wavelengths of the rays: see WavelengthSet
 };
 
 /// Expected photons in a kernel of a phase.

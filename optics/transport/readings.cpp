@@ -87,6 +87,16 @@ void PhaseReadings::add(const Phase& phase, std::size_t bin, const Lanes& radian
     value.z_bias += static_cast<double>((bias * phase.wavelengths.z).sum());
 }
 
+void PhaseReadings::add_tristimulus(std::size_t bin, const Lanes& xyz, const Lanes& bias) {
+    Value& value = values_[bin];
+    value.x += static_cast<double>(xyz[0]);
+    value.y += static_cast<double>(xyz[1]);
+    value.z += static_cast<double>(xyz[2]);
+    value.x_bias += static_cast<double>(bias[0]);
+    value.y_bias += static_cast<double>(bias[1]);
+    value.z_bias += static_cast<double>(bias[2]);
+}
+
 Readings::Readings(const SceneParts& parts, const Settings& settings)
     : spectral_bins_(static_cast<std::size_t>(settings.spectral_bins)) {
     for (std::size_t i = 0; i < parts.observers.size(); ++i) {
@@ -348,11 +358,19 @@ std::vector<Image> Readings::images(const SceneParts& parts) const {
 std::optional<Colour> Readings::colour(std::size_t sensor_bin) const {
     const std::size_t first = 3 * sensor_bin;
     // The wavelengths of few phases miss the colour of the light itself by more than their
-    // luminance. What they make of the known emission tells by how much: a ratio estimator,
-    // exact for grey scenes and biased by O(1 / phases) of the phases' variance in others.
+    // luminance. What they make of the known emission tells by how much, as far as readings follow
+    // it: a ratio estimator for light that comes straight or is scattered, exact for grey scenes;
+    // light behind dispersive glass has wavelengths of its own. Biased by O(1 / phases) of the
+    // phases' variance.
+    std::array<double, 3> follows{};
+    for (std::size_t part = 0; part < 3; ++part) {
+        follows[part] =
+            std::clamp(sensors_.relative_slope(first + part, 3 * steps_.size() + part), 0.0, 1.0);
+    }
     const auto calibrated = [&](auto&& mean, std::size_t part) {
-        return mean(first + part) * emission_[static_cast<Eigen::Index>(part)] /
-               mean(3 * steps_.size() + part);
+        return mean(first + part) *
+               std::pow(emission_[static_cast<Eigen::Index>(part)] / mean(3 * steps_.size() + part),
+                        follows[part]);
     };
     const auto of_mean = [&](std::size_t part) {
         return calibrated([&](std::size_t i) { return sensors_.mean(i); }, part);

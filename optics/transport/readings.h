@@ -34,6 +34,9 @@ public:
     /// Adds what a kernel collected, with its bias as measured in this phase, to a bin.
     void add(const Phase& phase, std::size_t bin, const Lanes& radiance, const Lanes& bias);
 
+    /// The same of X, Y and Z in the first three lanes.
+    void add_tristimulus(std::size_t bin, const Lanes& xyz, const Lanes& bias);
+
     /// Adds to a bin of a sensor what tells of steps of light in a kernel: see Gathered.
     void add_steps(std::size_t bin, const Vec3& slope, const Vec3& step) {
         steps_[bin].slope += slope;

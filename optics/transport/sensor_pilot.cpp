@@ -86,7 +86,7 @@ void prepare_sensors(const Phase& first, const TraceContext& context, const Sett
     const std::uint8_t histories = mask(History::indirect) | mask(History::caustic);
     const PilotPhotons photons{trace_photons(first, context, Emission(first, RandomPurpose::pilot),
                                              Reach::whole_path, histories, rays_to_guide, unused),
-                               rays_to_guide};
+                               rays_to_guide, first.wavelengths.luminance};
     const SeenPoints seen = seen_points(first, context, settings);
     const auto scatter = [&] { scatter_to_arrivals(first, context, seen, photons, plan.rays); };
     const std::vector<bool> lights = lights_with_surface(stage);

@@ -10,8 +10,8 @@ namespace lucerna::optics {
 namespace {
 
 // In standard deviations of a product of two measurements if photons are random: what is taken for
-// luck, and from where on a bias or step is sure.
-constexpr double luck = 0.5, sure = 2.0;
+// luck, from where on a bias or step is sure, and beyond doubt even of many narrow kernels.
+constexpr double luck = 0.5, sure = 2.0, beyond_doubt = 5.0;
 
 // What kernels of one radius hold, in the mean over the points.
 struct Step {
@@ -104,6 +104,12 @@ std::vector<Error> errors_of(const std::vector<Step>& steps, double at_points,
             std::max(0.5 * square(of_a_photon), step.variance) / square(step.area);
         errors.push_back({square(expansion) * variance_of_correction * pilots_per_phase * variance,
                           std::max(square(bias_left) * bound, of_step)});
+        // An edge on two sides and a hollow on the others may hide each other in a wide kernel.
+        const double hidden = square(bias_left) * per_flux * (shown - beyond_doubt * deviation);
+        for (std::size_t wider = 2; wider <= 3 && wider <= errors.size(); ++wider) {
+            double& bias_square = errors[errors.size() - wider].bias_square;
+            bias_square = std::max(bias_square, hidden);
+        }
     }
     return errors;
 }

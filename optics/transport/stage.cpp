@@ -139,7 +139,10 @@ Stage::Stage(const SceneParts& parts, std::optional<bool> polarisation)
         for (const BsdfId side : {object.front, object.back}) {
             if (side == pass_through) {
                 has_null_surfaces_ = true;
-            } else if (has_specular_lobe(parts_.bsdfs[side], parts_.bsdfs)) {
+                continue;
+            }
+            has_scattering_ = has_scattering_ || scatters_[side];
+            if (has_specular_lobe(parts_.bsdfs[side], parts_.bsdfs)) {
                 has_caustics_ = true;
             }
         }

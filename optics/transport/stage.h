@@ -47,6 +47,8 @@ public:
     bool is_glossy(BsdfId bsdf) const { return is_glossy_[bsdf]; }
     /// Whether the BSDF has a specular lobe.
     bool is_specular(BsdfId bsdf) const { return is_specular_[bsdf]; }
+    /// True if any surface scatters light.
+    bool has_scattering() const { return has_scattering_; }
     /// True if light can reach a scattering surface by specular events only: else no caustic map.
     bool has_caustics() const { return has_caustics_; }
     /// True if paths carry the polarisation of their light from event to event.
@@ -75,6 +77,7 @@ private:
     std::vector<bool> scatters_, is_glossy_, is_specular_;
     std::vector<std::pair<ObjectId, Eigen::AlignedBox3d>> solids_;  // objects with an interior
     BsdfId white_diffuser_ = 0;
+    bool has_scattering_ = false;
     bool has_caustics_ = false;
     bool has_null_surfaces_ = false;
     bool follows_polarisation_ = false;

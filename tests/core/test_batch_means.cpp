@@ -96,6 +96,24 @@ TEST_CASE("One phase has no error", "[unit]") {
     CHECK(std::isinf(mean.expanded_uncertainty()));
 }
 
+TEST_CASE("How a value follows another is told by what they share", "[statistical]") {
+    // value = 5 (1 + 0.4 d + noise), other = 2 (1 + d): slope 0.4, whatever the units.
+    constexpr double slope = 0.4;
+    BatchMeans batches(3);
+    RandomStream random(4, 0, RandomPurpose::test, 0);
+    constexpr int phases = 4000;
+    for (int i = 0; i < phases; ++i) {
+        const double d = 0.2 * (random.uniform() - 0.5), noise = 0.1 * (random.uniform() - 0.5);
+        const std::array<double, 3> values{5.0 * (1.0 + slope * d + noise), 2.0 * (1.0 + d), 7.0};
+        batches.add(values);
+    }
+    // Of 32 to 64 batches: standard deviation of the slope (0.1 / 0.2) / sqrt(batches).
+    const double error = 0.5 / std::sqrt(32.0);
+    CHECK(std::abs(batches.relative_slope(0, 1) - slope) < 4.9 * error);
+    CHECK_THAT(batches.relative_slope(1, 1), WithinRel(1.0, 1e-9));
+    CHECK(batches.relative_slope(0, 2) == 0.0);  // tells nothing
+}
+
 TEST_CASE("Joined runs have the mean and the error of all of their phases", "[property]") {
     const auto [one, other] = GENERATE(table<std::uint32_t, std::uint32_t>(
         {{40u, 50u}, {64u, 64u}, {300u, 20u}, {20u, 300u}, {129u, 1000u}, {40u, 0u}}));

@@ -258,8 +258,10 @@ TEST_CASE("Shift and common lanes are uniform and independent over phases and se
     const WavelengthSampler sampler(Spectrum(1.0));
     std::vector<double> counts(64);  // 2 sets of lanes x 32 parts of the shift
     const bool over_seeds = GENERATE(false, true);
+    const std::uint32_t of_phase = GENERATE(0u, 7u);
     for (std::uint32_t i = 0; i < 6400; ++i) {
-        const WavelengthSet set = over_seeds ? sampler.sample(i, 5) : sampler.sample(5, i);
+        const WavelengthSet set =
+            over_seeds ? sampler.sample(i, 5, of_phase) : sampler.sample(5, i, of_phase);
         double probability = 0.0;  // below the first wavelength: shift / 16
         const double width_nm = (set.wavelength_nm[0] - 360.0) / 200.0;
         for (int k = 0; k < 200; ++k) {
@@ -320,6 +322,38 @@ TEST_CASE("A set depends on seed and phase only", "[property]") {
     CHECK(one.sample(4, 1000).wavelength_nm != one.sample(4, 1001).wavelength_nm);
     CHECK(one.sample(4, 1000).wavelength_nm != one.sample(5, 1000).wavelength_nm);
     CHECK(one.sample(4, 4294967295u).wavelength_nm[0] >= 360.0);
+}
+
+TEST_CASE("Parts of a phase fill the gaps between each other's wavelengths", "[property]") {
+    const WavelengthSampler sampler(Spectrum(1.0), Dispersion::present);
+    const Probability probability(sampler);
+    constexpr std::uint32_t parts = 64;
+    const auto widest_gap = [&](const auto& set_of) {
+        std::vector<double> shifts{0.0, 1.0};
+        for (std::uint32_t part = 0; part < parts; ++part) {
+            shifts.push_back(lane_count * probability.below(set_of(part).wavelength_nm[0]));
+        }
+        std::ranges::sort(shifts);
+        double widest = 0.0;
+        for (std::size_t i = 1; i < shifts.size(); ++i) {
+            widest = std::max(widest, shifts[i] - shifts[i - 1]);
+        }
+        return widest;
+    };
+    for (std::uint32_t phase = 0; phase < 10; ++phase) {
+        CHECK(widest_gap([&](std::uint32_t part) { return sampler.sample(1, phase, 1 + part); }) <
+              3.0 / parts);
+        int first_common = 0;
+        for (std::uint32_t part = 0; part < parts; ++part) {
+            first_common += sampler.sample(1, phase, 1 + part).first_common;
+        }
+        CHECK(std::abs(first_common - static_cast<int>(parts) / 2) <= 3);
+        // The twin: independent sets leave gaps of about ln(64) / 64.
+        CHECK(widest_gap([&](std::uint32_t part) {
+                  return sampler.sample(2, phase * parts + part);
+              }) > 3.0 / parts);
+    }
+    CHECK(sampler.sample(1, 3).wavelength_nm == sampler.sample(1, 3, 0).wavelength_nm);
 }
 
 TEST_CASE("The scale of the emission does not matter", "[property]") {

@@ -1,4 +1,5 @@
-// A dispersive prism at least deviation: two sheets meet where the middle of a beam must land.
+// A dispersive prism at least deviation: two sheets meet where the middle of a beam must land, or a
+// screen shows the spectrum.
 #include <fmt/format.h>
 
 #include "optics/geometry/mesh.h"
@@ -6,6 +7,7 @@
 #include "validation/cases.h"
 #include "validation/scene_builder.h"
 #include "validation/truth/prism.h"
+#include "validation/truth/root.h"
 #include "validation/truth/spectral_mean.h"
 
 namespace lucerna::validation {
@@ -15,6 +17,8 @@ using namespace optics;
 
 constexpr double apex_rad = pi / 3.0;
 constexpr double height_m = 0.06;
+const std::string prism_source =
+    "n = sin((A + D) / 2) / sin(A / 2): Born and Wolf, 7th ed., 4.7.2; Fresnel with s and p apart";
 
 // Cauchy's formula for a glass like a dense flint.
 double index_at(double nm) {
@@ -36,10 +40,19 @@ std::shared_ptr<const Mesh> prism_mesh() {
         {{0, 1, 2}, {3, 5, 4}, {0, 3, 4}, {0, 4, 1}, {1, 4, 5}, {1, 5, 2}, {2, 5, 3}, {2, 3, 0}});
 }
 
+// A beam of 20 mm across the principal section through the prism.
+struct PrismScene {
+    SceneBuilder builder;
+    spectral::Spectrum index;
+    truth::PrismScreen geometry;
+    Vec3 middle;  // of the screen, where light of least deviation lands
+    Vec3 out;     // where that light goes
+    Vec3 beyond;  // in the plane of section, toward larger deviation
+};
+constexpr double beam_length_m = 0.02;
+
 // @param light  relative spectral distribution.
-Case at_least_deviation(const std::string& id, const std::string& title,
-                        const spectral::Spectrum& light, double least_nm, double beam_width_m,
-                        std::uint32_t phases) {
+PrismScene prism_scene(const spectral::Spectrum& light, double least_nm, double beam_width_m) {
     const double least_index = index_at(least_nm);
     const truth::PrismScreen geometry{
         apex_rad,    truth::least_deviation_incidence_rad(least_index, apex_rad),
@@ -47,7 +60,6 @@ Case at_least_deviation(const std::string& id, const std::string& title,
         1.0,         beam_width_m};
 
     SceneBuilder scene;
-    const MediumId glass = scene.medium(1.0);
     std::vector<double> wavelengths_nm;
     std::vector<double> indices;
     for (int nm = 360; nm <= 830; ++nm) {
@@ -55,9 +67,8 @@ Case at_least_deviation(const std::string& id, const std::string& title,
         indices.push_back(index_at(nm));
     }
     const spectral::Spectrum index(wavelengths_nm, indices, spectral::Outside::hold);
-    scene.parts.spectra[scene.parts.media[glass].index] = index;
-    scene.parts.media[glass].dispersive = true;
-    scene.solid("prism", MeshInstance{prism_mesh(), Placement::Identity()}, glass);
+    scene.solid("prism", MeshInstance{prism_mesh(), Placement::Identity()},
+                scene.dispersive_medium(index));
     // Takes what the exit face reflects: after three reflections it would join the beam.
     scene.object("base", Rectangle{{-0.033, -0.049, -0.059}, {0.066, 0, 0}, {0, 0.098, 0}},
                  scene.black());
@@ -72,7 +83,6 @@ Case at_least_deviation(const std::string& id, const std::string& title,
     const Vec3 out = std::cos(incidence) * exit_normal + std::sin(incidence) * down_exit;
     const Vec3 across_in = Vec3::UnitY().cross(in);
     const Vec3 start = -geometry.entry_m * up_entry - 0.2 * in;
-    constexpr double beam_length_m = 0.02;
     scene.light("beam",
                 BeamLight{Rectangle{start - 0.5 * beam_width_m * across_in -
                                         0.5 * beam_length_m * Vec3::UnitY(),
@@ -81,20 +91,34 @@ Case at_least_deviation(const std::string& id, const std::string& title,
                 lamp_flux_lm);
     scene.parts.lights.back().flux_w_per_nm =
         scene.parts.add(spectral::scaled_to_luminous(light, lamp_flux_lm));
+    return {.builder = std::move(scene),
+            .index = index,
+            .geometry = geometry,
+            .middle = geometry.entry_m * down_exit + geometry.screen_m * out,
+            .out = out,
+            .beyond = -std::sin(incidence) * exit_normal + std::cos(incidence) * down_exit};
+}
 
-    const Vec3 middle = geometry.entry_m * down_exit + geometry.screen_m * out;
-    // In the plane of section, toward larger deviation.
-    const Vec3 beyond = -std::sin(incidence) * exit_normal + std::cos(incidence) * down_exit;
+// The flux that lands on each of two sheets, which meet in the middle.
+Case at_least_deviation(const std::string& id, const std::string& title,
+                        const spectral::Spectrum& light, double least_nm, double beam_width_m,
+                        std::uint32_t phases) {
+    PrismScene prism = prism_scene(light, least_nm, beam_width_m);
+    SceneBuilder& scene = prism.builder;
     constexpr double sheet_m = 0.3;
-    const Vec3 corner = middle - 0.15 * Vec3::UnitY();
-    scene.receiver(scene.object("beyond", Rectangle{corner, sheet_m * beyond, 0.3 * Vec3::UnitY()},
-                                scene.black()));
-    scene.receiver(scene.object(
-        "before", Rectangle{corner - sheet_m * beyond, sheet_m * beyond, 0.3 * Vec3::UnitY()},
-        scene.black()));
+    const Vec3 corner = prism.middle - 0.15 * Vec3::UnitY();
+    for (const bool far : {true, false}) {
+        const Vec3 along = sheet_m * prism.beyond;
+        scene.receiver(
+            scene.object(far ? "beyond" : "before",
+                         Rectangle{far ? corner : Vec3(corner - along), along, 0.3 * Vec3::UnitY()},
+                         scene.black()));
+    }
 
     const auto light_at = [&](double nm) { return light.at(nm); };
-    const auto landing = [&](double nm) { return truth::prism_landing(geometry, index.at(nm)); };
+    const auto landing = [&](double nm) {
+        return truth::prism_landing(prism.geometry, prism.index.at(nm));
+    };
     const double far = lamp_flux_lm * truth::luminous_mean(light_at, [&](double nm) {
                            return landing(nm).flux_beyond();
                        });
@@ -104,14 +128,76 @@ Case at_least_deviation(const std::string& id, const std::string& title,
     // The sheets' order of normals decides which side is the front; both sides are read.
     return {.id = id,
             .title = title,
-            .source =
-                "n = sin((A + D) / 2) / sin(A / 2): Born and Wolf, 7th ed., 4.7.2; Fresnel "
-                "with s and p apart",
+            .source = prism_source,
             .scene = std::move(scene.parts),
             .settings = effort(phases, 8000),
             .checks = {
                 {"beyond least deviation", "luminous flux", "lm", far, 1e-5 * all, sensor(1), 0.02},
                 {"before it", "luminous flux", "lm", all - far, 1e-5 * all, sensor(3), 0.02}}};
+}
+
+// Illuminance and chromaticity where the middles of beams of some wavelengths land. Neighbouring
+// wavelengths overlap there by the width of the beam.
+Case spectrum_on_a_screen(double beam_width_m) {
+    const auto light = [](double) { return 1.0; };
+    PrismScene prism = prism_scene(1.0, 560.0, beam_width_m);
+    SceneBuilder& scene = prism.builder;
+    const Vec3 side = 0.15 * Vec3::UnitY();
+    scene.object(
+        "screen",
+        Rectangle{prism.middle - 0.3 * prism.beyond - side, 0.6 * prism.beyond, 2.0 * side},
+        scene.black());
+    const auto landing = [&](double nm) {
+        return truth::prism_landing(prism.geometry, prism.index.at(nm));
+    };
+    const double per_weight = lamp_flux_lm / truth::spectral_integral(spectral::v_lambda(), light,
+                                                                      [](double) { return 1.0; });
+    std::vector<Vec3> points;
+    std::vector<Check> checks;
+    for (const double nm : {450.0, 480.0, 510.0, 540.0, 570.0, 600.0, 640.0}) {
+        const double at_m = landing(nm).middle_m;
+        // Longer waves land before the point, and reach it with the rim of their beam that lies
+        // beyond: `rim` is half a width with its sign.
+        const auto of_rim = [&](double rim) {
+            return truth::root(
+                [&](double other_nm) {
+                    const truth::PrismLanding there = landing(other_nm);
+                    return there.middle_m + rim * there.width_m - at_m;
+                },
+                spectral::min_wavelength_nm, spectral::max_wavelength_nm);
+        };
+        const double shortest_nm = of_rim(-0.5);
+        const double longest_nm = of_rim(0.5);
+        const auto sum = [&](const spectral::Spectrum& weight) {
+            return per_weight * truth::integral(
+                                    [&](double other_nm) {
+                                        const truth::PrismLanding there = landing(other_nm);
+                                        return weight.at(other_nm) * there.transmittance /
+                                               (there.width_m * beam_length_m);
+                                    },
+                                    shortest_nm, longest_nm, 400);
+        };
+        const double x = sum(spectral::x_bar());
+        const double y = sum(spectral::v_lambda());
+        const double z = sum(spectral::z_bar());
+        const std::size_t i = points.size();
+        const auto check = [&](const char* what, const char* quantity, const char* unit,
+                               double truth, Read read, double detects) {
+            checks.push_back({fmt::format("{} at {:g} nm", what, nm), quantity, unit, truth,
+                              1e-5 * truth, std::move(read), detects});
+        };
+        check("illuminance", "illuminance", "lx", y, sensor(i), 0.12);
+        check("x", "chromaticity", "1", x / (x + y + z), chromaticity_x(i), 0.04);
+        check("y", "chromaticity", "1", y / (x + y + z), chromaticity_y(i), 0.04);
+        points.push_back(prism.middle + at_m * prism.beyond - lift_m * prism.out);
+    }
+    scene.points(std::move(points), -prism.out);
+    return {fmt::format("prism/spectrum-{:g}-mm", 1e3 * beam_width_m),
+            fmt::format("spectrum on a screen, of a white beam {:g} mm wide", 1e3 * beam_width_m),
+            prism_source,
+            std::move(scene.parts),
+            effort(96, 20000),
+            std::move(checks)};
 }
 
 // Light within a nanometre of one wavelength.
@@ -132,6 +218,7 @@ std::vector<Case> prism_cases() {
     cases.push_back(at_least_deviation("prism/white",
                                        "white beam spread by a prism, cut in two at 560 nm", 1.0,
                                        560.0, 0.002, 192));
+    for (const double width_m : {0.002, 0.008}) cases.push_back(spectrum_on_a_screen(width_m));
     return cases;
 }
 

@@ -3,7 +3,9 @@
 
 #include "validation/cases.h"
 #include "validation/scene_builder.h"
+#include "validation/truth/chebyshev.h"
 #include "validation/truth/round_lens.h"
+#include "validation/truth/spectral_mean.h"
 
 namespace lucerna::validation {
 namespace {
@@ -18,12 +20,36 @@ constexpr double beam_half_width_m = 1.5 * radius_m;
 // 4 % to 25 % of a half space that the lens takes, times the 8 % that it reflects.
 constexpr double screen_reflectance = 0.002;
 
-// Lens at the origin, beam along z. Points lie half a millimetre before the screen.
+// Cauchy's formula: the index of the lens at 550 nm, and `b_nm2` of what falls with the wavelength.
+struct Dispersion {
+    double b_nm2 = 0.0;
+    RoundLens at(RoundLens lens, double nm) const {
+        lens.index += b_nm2 * (1.0 / (nm * nm) - 1.0 / (550.0 * 550.0));
+        return lens;
+    }
+    spectral::Spectrum index(const RoundLens& lens) const {
+        std::vector<double> wavelengths_nm, indices;
+        for (int nm = 360; nm <= 830; ++nm) {
+            wavelengths_nm.push_back(nm);
+            indices.push_back(at(lens, nm).index);
+        }
+        return {wavelengths_nm, indices, spectral::Outside::hold};
+    }
+};
+
+constexpr Dispersion crown{5e3};
+// Where no wavelength has a fold of any order, with that dispersion at n = 1.5 and 4 radii.
+const std::vector<double> smooth_heights{0.5, 0.7, 1.2};
+
+// Lens at the origin, beam along z, of an equal-energy spectrum. Points lie half a millimetre
+// before the screen.
 // @param heights  from the axis, in radii of the lens; away from folds.
 Case behind(const std::string& id, const RoundLens& lens, const std::vector<double>& heights,
-            std::uint32_t phases, std::uint32_t rays) {
+            std::uint32_t phases, std::uint32_t rays, const Dispersion& dispersion = {}) {
     SceneBuilder scene;
-    const MediumId glass = scene.medium(lens.index, lens.absorption_per_m);
+    const bool disperses = dispersion.b_nm2 > 0.0;
+    const MediumId glass = disperses ? scene.dispersive_medium(dispersion.index(lens))
+                                     : scene.medium(lens.index, lens.absorption_per_m);
     const Vec3 start(0.0, 0.0, -3.0 * radius_m);
     constexpr double beam_half_length_m = 0.05;
     if (lens.is_ball) {
@@ -45,7 +71,8 @@ Case behind(const std::string& id, const RoundLens& lens, const std::vector<doub
         .id = id,
         .title = fmt::format("caustic of a {} of n = {:g}, absorption {:g} /m, at {:g} radii",
                              lens.is_ball ? "ball" : "cylinder", lens.index, lens.absorption_per_m,
-                             lens.screen_m / radius_m),
+                             lens.screen_m / radius_m) +
+                 (disperses ? ", dispersive" : ""),
         .source = lens.is_ball ? "E = sum of E0 T(h) h |dh/dx| / x over branches, rays of Born and "
                                  "Wolf, 7th ed., 4.1 and 1.5.2; orders 0 to 12 of internal "
                                  "reflection, and reflection outside"
@@ -59,7 +86,15 @@ Case behind(const std::string& id, const RoundLens& lens, const std::vector<doub
         RoundLens on_plane = lens;
         on_plane.screen_m = plane_m;
         const bool beside = at_m > radius_m && at_m < beam_half_width_m;
-        return beam_irradiance * (truth::lens_irradiance(on_plane, at_m) + (beside ? 1.0 : 0.0));
+        const auto at = [&](double nm) {
+            return beam_irradiance * (truth::lens_irradiance(dispersion.at(on_plane, nm), at_m) +
+                                      (beside ? 1.0 : 0.0));
+        };
+        if (!disperses) return at(550.0);
+        constexpr int nodes = 9;  // 17 give the same to 1e-6
+        const truth::Chebyshev of_wavelength(at, spectral::min_wavelength_nm,
+                                             spectral::max_wavelength_nm, nodes);
+        return truth::luminous_mean([](double) { return 1.0; }, of_wavelength);
     };
     const auto sweep = [&](const std::string& what, double height) {
         return SweepPoint{what, "distance from the axis [radii]", height};
@@ -106,7 +141,9 @@ std::vector<Case> ball_lens_cases() {
             behind("ball_lens/absorbing", {true, radius_m, 1.7, 10.0, 3.0 * radius_m},
                    {0.3, 0.7, 1.2}, 640, 10000),
             behind("ball_lens/before-focus", {true, radius_m, 1.3, 0.0, 1.1 * radius_m},
-                   {0.08, 0.16}, 900, 10000)};
+                   {0.08, 0.16}, 900, 10000),
+            behind("ball_lens/dispersive", {true, radius_m, 1.5, 0.0, 4.0 * radius_m},
+                   smooth_heights, 160, 10000, crown)};
 }
 
 std::vector<Case> cylinder_lens_cases() {
@@ -115,7 +152,9 @@ std::vector<Case> cylinder_lens_cases() {
             behind("cylinder_lens/absorbing", {false, radius_m, 1.7, 10.0, 3.0 * radius_m},
                    {0.3, 0.7, 1.2}, 640, 10000),
             behind("cylinder_lens/before-focus", {false, radius_m, 1.3, 0.0, 1.1 * radius_m},
-                   {0.08, 0.16}, 640, 10000)};
+                   {0.08, 0.16}, 640, 10000),
+            behind("cylinder_lens/dispersive", {false, radius_m, 1.5, 0.0, 4.0 * radius_m},
+                   smooth_heights, 160, 10000, crown)};
 }
 
 }  // namespace lucerna::validation

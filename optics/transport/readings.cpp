@@ -281,9 +281,7 @@ double Readings::delta() const {
 }
 
 Uncertain Readings::result_of_sensor(std::size_t bin) const {
-    Uncertain result = luminance_[bin].corrected();
-    result.bias_left = std::max(result.bias_left, steps_[bin].beyond_noise());
-    return result;
+    return luminance_[bin].corrected(steps_[bin].beyond_noise());
 }
 
 double Readings::worst_sensor(const SceneParts& parts, const Settings& targets) const {

@@ -1,7 +1,6 @@
 // What a simulation leaves behind.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -66,11 +65,7 @@ struct Quantity {
     double bias_of_step = 0.0;
     InputChanges inputs{};
 
-    Uncertain result() const {
-        Uncertain result = estimate.corrected();
-        result.bias_left = std::max(result.bias_left, bias_of_step);
-        return result;
-    }
+    Uncertain result() const { return estimate.corrected(bias_of_step); }
 };
 
 /// A number that follows from several quantities of one sensor, such as a uniformity.

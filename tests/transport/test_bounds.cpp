@@ -205,7 +205,16 @@ TEST_CASE("U of points beside a sharp shadow holds what the step of light leaves
         positions.emplace_back(shadow.shadow_edge_m() - beside_m, 0.0, 1e-4);
     }
     scene.points(positions, Vec3::UnitZ());
-    const Result result = test::run(scene, Method::combined, {64, 20000});
+    // Noise and two kernels alone, 17 lx, would let the run stop.
+    constexpr double asked_lx = 25.0;
+    Settings settings;
+    settings.method = Method::combined;
+    settings.seed = 7;
+    settings.max_phases = 64;
+    settings.forward_rays = 20000;
+    settings.sensor_targets = {{"points", 0.0, asked_lx}};
+    const Result result = simulate(scene.parts, settings);
+    CHECK_FALSE(result.accuracy_reached);
     bool by_step = false, missed_without = false;
     for (std::size_t i = 0; i < positions.size(); ++i) {
         const Quantity& point = result.quantities[i];
@@ -214,6 +223,7 @@ TEST_CASE("U of points beside a sharp shadow holds what the step of light leaves
         CHECK(off <= point.result().expanded_uncertainty());
         by_step = by_step || point.result().bias_left > point.estimate.bias_left();
         missed_without = missed_without || off > point.estimate.expanded_uncertainty();
+        CHECK(point.estimate.expanded_uncertainty() < asked_lx);
     }
     CHECK(by_step);
     CHECK(missed_without);  // the twin: noise and two kernels alone

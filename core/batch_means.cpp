@@ -56,6 +56,7 @@ double BatchMeans::relative_slope(std::size_t value, std::size_t other) const {
     const double mean_of_value = complete_[value] / static_cast<double>(complete_batches_);
     const double mean_of_other = complete_[other] / static_cast<double>(complete_batches_);
     double product = 0.0, square = 0.0;
+    if (mean_of_value == 0.0 || mean_of_other == 0.0) return 0.0;
     for (std::size_t i = 0; i < complete_batches_; ++i) {
         const double deviation = batch(i)[other] / mean_of_other - 1.0;
         product += deviation * (batch(i)[value] / mean_of_value - 1.0);

@@ -36,6 +36,8 @@ public:
     void merge(const BatchMeans& other);
 
     std::uint64_t phases() const { return phases_; }
+    /// Complete ones.
+    std::size_t batches() const { return complete_batches_; }
     double mean(std::size_t value) const;
 
     /// @param functional  double(mean), where mean(i) is the mean of value number i.
@@ -69,7 +71,7 @@ public:
     }
 
     /// How a value follows another from batch to batch: the coefficient of the regression of its
-    /// relative deviations on those of the other; 0 if that one is always the same.
+    /// relative deviations on those of the other; 0 if that one is always the same, or the value 0.
     double relative_slope(std::size_t value, std::size_t other) const;
 
     std::size_t bytes() const { return (batches_.size() + 3 * value_count_) * sizeof(double); }

@@ -1,7 +1,6 @@
 // Values estimated from independent phases, with their uncertainty.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 
 #include "core/vector.h"
@@ -52,10 +51,8 @@ public:
     /// over phases; infinite for fewer than two phases.
     double value(double correction = 1.0) const { return mean() - correction * bias(); }
     double standard_error(double correction = 1.0) const;
-    /// @param bias_of_step  what a step may have left of the bias: see StepBias.
-    Uncertain corrected(double bias_of_step = 0.0) const {
-        return {value(), standard_error(), degrees_of_freedom(), 1.0,
-                std::max(bias_left(), bias_of_step)};
+    Uncertain corrected() const {
+        return {value(), standard_error(), degrees_of_freedom(), 1.0, bias_left()};
     }
     /// What is left of the bias at most, by the measured bias less its noise.
     double bias_left() const;

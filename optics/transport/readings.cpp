@@ -280,21 +280,81 @@ double Readings::delta() const {
     return square > 0.0 ? std::sqrt(variance / square) : 0.0;
 }
 
-Uncertain Readings::result_of_sensor(std::size_t bin) const {
-    return luminance_[bin].corrected(steps_[bin].beyond_noise());
+// The wavelengths of a phase bring more or less of the emission than there is, which is known: by
+// 0.5 % of its luminance, and much more of its colour. Readings follow that as far as their light
+// comes straight or is scattered, wholly in grey scenes; light behind dispersive glass has
+// wavelengths of its own. By how much is a regression over batches of phases, so that what is
+// reported is a ratio estimator where that is of use. It is biased by O(1 / phases) of the phases'
+// variance.
+class Readings::Calibration {
+public:
+    explicit Calibration(const Readings& readings)
+        : sums_(readings.sensors_),
+          emission_(readings.emission_),
+          first_of_emission_(3 * readings.steps_.size()) {
+        // Fewer tell no slope: all light is taken to follow the emission.
+        constexpr std::size_t least_batches = 8;
+        follows_.assign(first_of_emission_, 1.0);
+        if (sums_.batches() < least_batches) return;
+        regressed_ = true;
+        for (std::size_t i = 0; i < follows_.size(); ++i) {
+            follows_[i] = std::clamp(sums_.relative_slope(i, first_of_emission_ + i % 3), 0.0, 1.0);
+        }
+    }
+
+    // part 0 to 2: X, Y, Z.
+    template <typename Mean>
+    double value(Mean&& mean, std::size_t bin, std::size_t part) const {
+        const std::size_t i = 3 * bin + part;
+        const double reading = mean(i);
+        if (follows_[i] == 0.0) return reading;
+        return reading * std::pow(emission_[static_cast<Eigen::Index>(part)] /
+                                      mean(first_of_emission_ + part),
+                                  follows_[i]);
+    }
+    double value(std::size_t bin, std::size_t part) const {
+        return value([&](std::size_t i) { return sums_.mean(i); }, bin, part);
+    }
+
+    // f(value), where value(bin, part) are those of the means; less one degree of freedom for the
+    // slope.
+    template <typename Functional>
+    Uncertain of(const Functional& functional) const {
+        Uncertain result = sums_.of([&](auto&& mean) {
+            return functional(
+                [&](std::size_t bin, std::size_t part) { return value(mean, bin, part); });
+        });
+        if (regressed_) result.degrees_of_freedom -= 1.0;
+        return result;
+    }
+
+private:
+    const BatchMeans& sums_;
+    const Vec3& emission_;
+    std::size_t first_of_emission_;
+    std::vector<double> follows_;
+    bool regressed_ = false;
+};
+
+Uncertain Readings::result_of_sensor(const Calibration& calibration, std::size_t bin) const {
+    const Estimate& estimate = luminance_[bin];
+    Uncertain result = calibration.of([&](auto&& value) { return value(bin, 1); });
+    result.bias_left = std::max(estimate.bias_left(), steps_[bin].beyond_noise());
+    return result;
 }
 
 double Readings::worst_sensor(const SceneParts& parts, const Settings& targets) const {
+    const Calibration calibration(*this);
     double worst = 0.0;
     for (std::size_t i = 0; i < observers_.size(); ++i) {
         if (is_camera_[i]) continue;
         const SensorTarget target =
             targets.target_of(name_of(parts.observers[observers_[i].observer]));
-        const double degrees = luminance_[observers_[i].first_bin].degrees_of_freedom();
-        if (degrees < 1.0) return infinity;
-        const double t = student_t(target_coverage, degrees);
+        double t = 0.0;  // the same for all bins
         for (std::size_t bin = 0; bin < observers_[i].count; ++bin) {
-            const Uncertain result = result_of_sensor(observers_[i].first_bin + bin);
+            const Uncertain result = result_of_sensor(calibration, observers_[i].first_bin + bin);
+            if (result.degrees_of_freedom < 1.0) return infinity;
+            if (bin == 0) t = student_t(target_coverage, result.degrees_of_freedom);
             const double expanded =
                 std::hypot(t * result.standard_error, target_coverage * result.bias_left);
             worst = std::max(worst, target.excess(result.value, expanded));
@@ -353,31 +413,14 @@ std::vector<Image> Readings::images(const SceneParts& parts) const {
     return images;
 }
 
-std::optional<Colour> Readings::colour(std::size_t sensor_bin) const {
-    const std::size_t first = 3 * sensor_bin;
-    // The wavelengths of few phases miss the colour of the light itself by more than their
-    // luminance. What they make of the known emission tells by how much, as far as readings follow
-    // it: a ratio estimator for light that comes straight or is scattered, exact for grey scenes;
-    // light behind dispersive glass has wavelengths of its own. Biased by O(1 / phases) of the
-    // phases' variance.
-    std::array<double, 3> follows{};
-    for (std::size_t part = 0; part < 3; ++part) {
-        follows[part] =
-            std::clamp(sensors_.relative_slope(first + part, 3 * steps_.size() + part), 0.0, 1.0);
-    }
-    const auto calibrated = [&](auto&& mean, std::size_t part) {
-        return mean(first + part) *
-               std::pow(emission_[static_cast<Eigen::Index>(part)] / mean(3 * steps_.size() + part),
-                        follows[part]);
-    };
-    const auto of_mean = [&](std::size_t part) {
-        return calibrated([&](std::size_t i) { return sensors_.mean(i); }, part);
-    };
-    const spectral::Xyz mean{of_mean(0), of_mean(1), of_mean(2)};
+std::optional<Colour> Readings::colour(const Calibration& calibration,
+                                       std::size_t sensor_bin) const {
+    const spectral::Xyz mean{calibration.value(sensor_bin, 0), calibration.value(sensor_bin, 1),
+                             calibration.value(sensor_bin, 2)};
     if (!(mean.x > 0.0 && mean.y > 0.0 && mean.z > 0.0)) return std::nullopt;
     const auto share = [&](std::size_t part) {
-        return sensors_.of([&](auto&& means) {
-            const Vec3 xyz(calibrated(means, 0), calibrated(means, 1), calibrated(means, 2));
+        return calibration.of([&](auto&& value) {
+            const Vec3 xyz(value(sensor_bin, 0), value(sensor_bin, 1), value(sensor_bin, 2));
             return xyz[static_cast<Eigen::Index>(part)] / xyz.sum();
         });
     };
@@ -394,10 +437,9 @@ std::optional<Colour> Readings::colour(std::size_t sensor_bin) const {
         const double value = (*temperature).*part;
         const Vec3 slope = Vec3((*along_x).*part, (*along_y).*part, (*along_z).*part) / step -
                            Vec3::Constant(value / step);
-        return sensors_.of([&](auto&& means) {
-            return value +
-                   slope.dot(Vec3(calibrated(means, 0) - mean.x, calibrated(means, 1) - mean.y,
-                                  calibrated(means, 2) - mean.z));
+        return calibration.of([&](auto&& xyz) {
+            return value + slope.dot(Vec3(xyz(sensor_bin, 0) - mean.x, xyz(sensor_bin, 1) - mean.y,
+                                          xyz(sensor_bin, 2) - mean.z));
         });
     };
     colour.cct_k = linear(&spectral::ColourTemperature::cct_k);
@@ -406,15 +448,16 @@ std::optional<Colour> Readings::colour(std::size_t sensor_bin) const {
 }
 
 std::vector<Quantity> Readings::quantities(const SceneParts& parts) const {
+    const Calibration calibration(*this);
     std::vector<Quantity> quantities;
     for (std::size_t i = 0; i < observers_.size(); ++i) {
         const ObserverBins& bins = observers_[i];
         const Observer& observer = parts.observers[bins.observer];
         const auto report = [&](std::string name, const char* quantity, const char* unit,
                                 std::size_t bin) {
-            quantities.push_back({std::move(name), quantity, unit, luminance_[bins.first_bin + bin],
-                                  colour(bins.first_bin + bin),
-                                  steps_[bins.first_bin + bin].beyond_noise()});
+            const std::size_t i = bins.first_bin + bin;
+            quantities.push_back({std::move(name), quantity, unit, luminance_[i],
+                                  colour(calibration, i), result_of_sensor(calibration, i)});
         };
         if (const auto* points = std::get_if<IlluminancePoints>(&observer)) {
             for (std::size_t k = 0; k < bins.count; ++k) {
@@ -428,36 +471,36 @@ std::vector<Quantity> Readings::quantities(const SceneParts& parts) const {
 }
 
 std::vector<DerivedQuantity> Readings::derived(const SceneParts& parts) const {
+    const Calibration calibration(*this);
     std::vector<DerivedQuantity> derived;
     for (std::size_t i = 0; i < observers_.size(); ++i) {
         const ObserverBins& bins = observers_[i];
         const auto* points = std::get_if<IlluminancePoints>(&parts.observers[bins.observer]);
         if (points == nullptr || bins.count < 2) continue;
         const std::size_t first = bins.first_bin;
-        const auto y_of = [](std::size_t bin) { return 3 * bin + 1; };
+        const auto y_of_mean = [&](std::size_t bin) { return calibration.value(bin, 1); };
         std::size_t least = 0;
         std::size_t greatest = 0;
         for (std::size_t k = 0; k < bins.count; ++k) {
-            const double value = sensors_.mean(y_of(first + k));
-            if (value < sensors_.mean(y_of(first + least))) least = k;
-            if (value > sensors_.mean(y_of(first + greatest))) greatest = k;
+            const double value = y_of_mean(first + k);
+            if (value < y_of_mean(first + least)) least = k;
+            if (value > y_of_mean(first + greatest)) greatest = k;
         }
-        const auto mean_of = [&](auto&& mean) {
+        const auto mean_of = [&](auto&& value) {
             double sum = 0.0;
-            for (std::size_t k = 0; k < bins.count; ++k) sum += mean(y_of(first + k));
+            for (std::size_t k = 0; k < bins.count; ++k) sum += value(first + k, 1);
             return sum / static_cast<double>(bins.count);
         };
         const auto at = [&](std::size_t k) {
-            return [&, k](auto&& mean) { return mean(y_of(first + k)); };
+            return [&, k](auto&& value) { return value(first + k, 1); };
         };
         const auto candidates_for = [&](std::size_t chosen) {
             double candidates = 1.0;
             for (std::size_t k = 0; k < bins.count; ++k) {
                 // Points share photons and wavelengths, so that their difference is often known far
                 // better than they are.
-                const Uncertain apart = sensors_.of([&](auto&& mean) {
-                    return mean(y_of(first + k)) - mean(y_of(first + chosen));
-                });
+                const Uncertain apart = calibration.of(
+                    [&](auto&& value) { return value(first + k, 1) - value(first + chosen, 1); });
                 const bool rival = std::abs(apart.value) <= rival_errors * apart.standard_error;
                 if (k != chosen && rival) ++candidates;
             }
@@ -465,7 +508,9 @@ std::vector<DerivedQuantity> Readings::derived(const SceneParts& parts) const {
         };
         // What is left of biases of points is not correlated: on the dark side of a step it is
         // light too many, on the bright one too few.
-        const auto bias_left = [&](std::size_t k) { return result_of_sensor(first + k).bias_left; };
+        const auto bias_left = [&](std::size_t k) {
+            return result_of_sensor(calibration, first + k).bias_left;
+        };
         double square_of_biases = 0.0;
         for (std::size_t k = 0; k < bins.count; ++k) square_of_biases += square(bias_left(k));
         const double bias_of_mean = std::sqrt(square_of_biases) / static_cast<double>(bins.count);
@@ -480,18 +525,19 @@ std::vector<DerivedQuantity> Readings::derived(const SceneParts& parts) const {
         };
         const double of_least = candidates_for(least);
         const double of_greatest = candidates_for(greatest);
-        report("mean", "average illuminance", "lx", sensors_.of(mean_of), 1.0, bias_of_mean);
-        report("minimum", "minimum illuminance", "lx", sensors_.of(at(least)), of_least,
+        report("mean", "average illuminance", "lx", calibration.of(mean_of), 1.0, bias_of_mean);
+        report("minimum", "minimum illuminance", "lx", calibration.of(at(least)), of_least,
                bias_left(least));
-        report("maximum", "maximum illuminance", "lx", sensors_.of(at(greatest)), of_greatest,
+        report("maximum", "maximum illuminance", "lx", calibration.of(at(greatest)), of_greatest,
                bias_left(greatest));
-        const double of_value = relative(bias_left(least), sensors_.mean(y_of(first + least)));
+        const double of_value = relative(bias_left(least), y_of_mean(first + least));
         const auto ratio_to = [&](auto&& denominator) {
-            return sensors_.of(
-                [&](auto&& mean) { return mean(y_of(first + least)) / denominator(mean); });
+            return calibration.of(
+                [&](auto&& value) { return value(first + least, 1) / denominator(value); });
         };
         const auto bias_of_ratio = [&](const Uncertain& ratio, double bias, auto&& denominator) {
-            const double value = denominator([&](std::size_t part) { return sensors_.mean(part); });
+            const double value = denominator(
+                [&](std::size_t bin, std::size_t part) { return calibration.value(bin, part); });
             return ratio.value * std::hypot(of_value, relative(bias, value));
         };
         const Uncertain uniformity = ratio_to(mean_of);

@@ -120,8 +120,10 @@ private:
                            ImageMeans& means);
     void fold_sensors(const Phase& phase, PhaseReadings& readings);
     ImageError image_error(const ObserverBins& bins) const;
-    Uncertain result_of_sensor(std::size_t bin) const;
-    std::optional<Colour> colour(std::size_t sensor_bin) const;
+    // X, Y and Z of all sensors without the luck of the wavelengths, as functionals of means.
+    class Calibration;
+    Uncertain result_of_sensor(const Calibration& calibration, std::size_t bin) const;
+    std::optional<Colour> colour(const Calibration& calibration, std::size_t sensor_bin) const;
 
     std::vector<ObserverBins> observers_;
     std::vector<bool> is_camera_;    // per ObserverBins

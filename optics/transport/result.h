@@ -61,11 +61,11 @@ struct Quantity {
     std::string unit;      ///< "lx", "cd/m2", "lm"
     Estimate estimate;
     std::optional<Colour> colour{};  ///< where it has a meaning
-    /// Bias that a step of light within a kernel may have left, beyond noise; in the unit.
-    double bias_of_step = 0.0;
+    /// Of a sensor: the estimate with what the known emission and steps of light tell of its error.
+    std::optional<Uncertain> reading{};
     InputChanges inputs{};
 
-    Uncertain result() const { return estimate.corrected(bias_of_step); }
+    Uncertain result() const { return reading ? *reading : estimate.corrected(); }
 };
 
 /// A number that follows from several quantities of one sensor, such as a uniformity.

@@ -118,6 +118,54 @@ TEST_CASE("Points are rivals for the least by the noise that they do not share",
     CHECK(candidates(0.0) == 2.0);  // the twin: alike in truth
 }
 
+TEST_CASE("Readings are known without the luck of the wavelengths", "[analytic]") {
+    const Result result = test::run(luminaire_over_row(), Method::combined, {32, 100});
+    for (std::size_t i = 0; i < row.size(); ++i) {
+        INFO("point " << i);
+        const Uncertain reading = result.quantities[i].result();
+        const Estimate& as_read = result.quantities[i].estimate;
+        CHECK(agrees(reading, illuminance(row[i])));
+        CHECK(reading.standard_error < 0.1 * as_read.standard_error());
+        CHECK(reading.standard_error < 1e-4 * illuminance(row[i]));
+        // The twin: what was read is off by more than the reading's error.
+        CHECK_FALSE(agrees({as_read.value(), reading.standard_error, reading.degrees_of_freedom},
+                           illuminance(row[i])));
+    }
+}
+
+TEST_CASE("Light that does not follow the sum of all lights is not calibrated by it",
+          "[statistical]") {
+    // A wall parts two lamps of different colours. The luck of one tells nothing of the other.
+    const auto band = [](double nm) {
+        return spectral::Spectrum({nm - 50.0, nm, nm + 50.0}, {0.0, 1.0, 0.0},
+                                  spectral::Outside::zero);
+    };
+    SceneBuilder scene;
+    scene.object("wall", Rectangle{{0, -9, -9}, {0, 18, 0}, {0, 0, 18}}, scene.black());
+    for (const double side : {-1.0, 1.0}) {
+        scene.light("lamp", PointLight{{side, 0, 1}}, 4.0 * pi * 100.0);
+        scene.parts.lights.back().flux_w_per_nm = scene.parts.add(
+            spectral::scaled_to_luminous(band(550.0 + 60.0 * side), 4.0 * pi * 100.0));
+    }
+    scene.points({{-1, 0, 0}, {1, 0, 0}}, Vec3::UnitZ());
+    std::array<Estimate, 2> values;
+    double largest_ratio = 0.0;
+    for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+        const Result result = test::run(scene, Method::combined, {24, 100}, seed);
+        for (const std::size_t i : {0u, 1u}) {
+            const Quantity& point = result.quantities[i];
+            values[i].add(point.result().value);
+            CHECK(agrees(point.result(), 100.0));
+            largest_ratio = std::max(
+                largest_ratio, point.result().standard_error / point.estimate.standard_error());
+        }
+    }
+    CHECK(largest_ratio < 1.2);
+    for (const Estimate& value : values) {
+        test::check_mean(value.mean(), value.standard_error(), 100.0, {0.1});
+    }
+}
+
 TEST_CASE("The colour of a reading is that of the light that arrives", "[analytic]") {
     // Light A on red paint: X, Y, Z of the product by sums at 1 nm.
     const spectral::Spectrum red({360.0, 560.0, 620.0, 830.0}, {0.05, 0.08, 0.75, 0.85},
@@ -219,7 +267,7 @@ TEST_CASE("U of points beside a sharp shadow holds what the step of light leaves
     for (std::size_t i = 0; i < positions.size(); ++i) {
         const Quantity& point = result.quantities[i];
         const double off = std::abs(point.result().value - shadow.illuminance_lx(positions[i].x()));
-        CAPTURE(i, off, point.bias_of_step, point.estimate.expanded_uncertainty());
+        CAPTURE(i, off, point.result().bias_left, point.estimate.expanded_uncertainty());
         CHECK(off <= point.result().expanded_uncertainty());
         by_step = by_step || point.result().bias_left > point.estimate.bias_left();
         missed_without = missed_without || off > point.estimate.expanded_uncertainty();

@@ -35,6 +35,7 @@ public:
     /// counts in the means alone.
     void merge(const BatchMeans& other);
 
+    std::size_t value_count() const { return value_count_; }
     std::uint64_t phases() const { return phases_; }
     /// Complete ones.
     std::size_t batches() const { return complete_batches_; }

@@ -1,7 +1,5 @@
 #include "optics/transport/readings.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <bit>
 
@@ -23,23 +21,9 @@ Uncertain Image::pixel(std::size_t i) const {
 
 namespace {
 
-// Points whose value is as near to the least one as this many standard errors of the difference
-// might be the least in truth.
-constexpr double rival_errors = 2.0;
-
 std::size_t tiles_along(std::size_t pixels) {
     constexpr std::size_t size = Image::tile_size;
     return (pixels + size - 1) / size;
-}
-
-const std::string& name_of(const Observer& observer) {
-    return std::visit([](const auto& o) -> const std::string& { return o.name; }, observer);
-}
-
-std::string point_name(const IlluminancePoints& points, std::size_t k) {
-    const auto columns = static_cast<std::size_t>(std::max(1, points.columns));
-    if (points.columns > 0) return fmt::format("{}[{},{}]", points.name, k % columns, k / columns);
-    return points.positions.size() > 1 ? fmt::format("{}[{}]", points.name, k) : points.name;
 }
 
 std::size_t bins_of(const Observer& observer) {
@@ -280,89 +264,6 @@ double Readings::delta() const {
     return square > 0.0 ? std::sqrt(variance / square) : 0.0;
 }
 
-// The wavelengths of a phase bring more or less of the emission than there is, which is known: by
-// 0.5 % of its luminance, and much more of its colour. Readings follow that as far as their light
-// comes straight or is scattered, wholly in grey scenes; light behind dispersive glass has
-// wavelengths of its own. By how much is a regression over batches of phases, so that what is
-// reported is a ratio estimator where that is of use. It is biased by O(1 / phases) of the phases'
-// variance.
-class Readings::Calibration {
-public:
-    explicit Calibration(const Readings& readings)
-        : sums_(readings.sensors_),
-          emission_(readings.emission_),
-          first_of_emission_(3 * readings.steps_.size()) {
-        // Fewer tell no slope: all light is taken to follow the emission.
-        constexpr std::size_t least_batches = 8;
-        follows_.assign(first_of_emission_, 1.0);
-        if (sums_.batches() < least_batches) return;
-        regressed_ = true;
-        for (std::size_t i = 0; i < follows_.size(); ++i) {
-            follows_[i] = std::clamp(sums_.relative_slope(i, first_of_emission_ + i % 3), 0.0, 1.0);
-        }
-    }
-
-    // part 0 to 2: X, Y, Z.
-    template <typename Mean>
-    double value(Mean&& mean, std::size_t bin, std::size_t part) const {
-        const std::size_t i = 3 * bin + part;
-        const double reading = mean(i);
-        if (follows_[i] == 0.0) return reading;
-        return reading * std::pow(emission_[static_cast<Eigen::Index>(part)] /
-                                      mean(first_of_emission_ + part),
-                                  follows_[i]);
-    }
-    double value(std::size_t bin, std::size_t part) const {
-        return value([&](std::size_t i) { return sums_.mean(i); }, bin, part);
-    }
-
-    // f(value), where value(bin, part) are those of the means; less one degree of freedom for the
-    // slope.
-    template <typename Functional>
-    Uncertain of(const Functional& functional) const {
-        Uncertain result = sums_.of([&](auto&& mean) {
-            return functional(
-                [&](std::size_t bin, std::size_t part) { return value(mean, bin, part); });
-        });
-        if (regressed_) result.degrees_of_freedom -= 1.0;
-        return result;
-    }
-
-private:
-    const BatchMeans& sums_;
-    const Vec3& emission_;
-    std::size_t first_of_emission_;
-    std::vector<double> follows_;
-    bool regressed_ = false;
-};
-
-Uncertain Readings::result_of_sensor(const Calibration& calibration, std::size_t bin) const {
-    const Estimate& estimate = luminance_[bin];
-    Uncertain result = calibration.of([&](auto&& value) { return value(bin, 1); });
-    result.bias_left = std::max(estimate.bias_left(), steps_[bin].beyond_noise());
-    return result;
-}
-
-double Readings::worst_sensor(const SceneParts& parts, const Settings& targets) const {
-    const Calibration calibration(*this);
-    double worst = 0.0;
-    for (std::size_t i = 0; i < observers_.size(); ++i) {
-        if (is_camera_[i]) continue;
-        const SensorTarget target =
-            targets.target_of(name_of(parts.observers[observers_[i].observer]));
-        double t = 0.0;  // the same for all bins
-        for (std::size_t bin = 0; bin < observers_[i].count; ++bin) {
-            const Uncertain result = result_of_sensor(calibration, observers_[i].first_bin + bin);
-            if (result.degrees_of_freedom < 1.0) return infinity;
-            if (bin == 0) t = student_t(target_coverage, result.degrees_of_freedom);
-            const double expanded =
-                std::hypot(t * result.standard_error, target_coverage * result.bias_left);
-            worst = std::max(worst, target.excess(result.value, expanded));
-        }
-    }
-    return worst;
-}
-
 std::vector<Image> Readings::images(const SceneParts& parts) const {
     std::vector<Image> images;
     for (std::size_t i = 0; i < observers_.size(); ++i) {
@@ -411,143 +312,6 @@ std::vector<Image> Readings::images(const SceneParts& parts) const {
         images.push_back(std::move(image));
     }
     return images;
-}
-
-std::optional<Colour> Readings::colour(const Calibration& calibration,
-                                       std::size_t sensor_bin) const {
-    const spectral::Xyz mean{calibration.value(sensor_bin, 0), calibration.value(sensor_bin, 1),
-                             calibration.value(sensor_bin, 2)};
-    if (!(mean.x > 0.0 && mean.y > 0.0 && mean.z > 0.0)) return std::nullopt;
-    const auto share = [&](std::size_t part) {
-        return calibration.of([&](auto&& value) {
-            const Vec3 xyz(value(sensor_bin, 0), value(sensor_bin, 1), value(sensor_bin, 2));
-            return xyz[static_cast<Eigen::Index>(part)] / xyz.sum();
-        });
-    };
-    Colour colour{share(0), share(1), std::nullopt, std::nullopt};
-    const auto temperature = spectral::correlated_colour_temperature(mean);
-    if (!temperature) return colour;
-    // Not sought for each batch of phases: its change with X, Y and Z is linear enough.
-    const double step = 1e-4 * (mean.x + mean.y + mean.z);
-    const auto along_x = spectral::correlated_colour_temperature({mean.x + step, mean.y, mean.z});
-    const auto along_y = spectral::correlated_colour_temperature({mean.x, mean.y + step, mean.z});
-    const auto along_z = spectral::correlated_colour_temperature({mean.x, mean.y, mean.z + step});
-    if (!along_x || !along_y || !along_z) return colour;
-    const auto linear = [&](double spectral::ColourTemperature::*part) {
-        const double value = (*temperature).*part;
-        const Vec3 slope = Vec3((*along_x).*part, (*along_y).*part, (*along_z).*part) / step -
-                           Vec3::Constant(value / step);
-        return calibration.of([&](auto&& xyz) {
-            return value + slope.dot(Vec3(xyz(sensor_bin, 0) - mean.x, xyz(sensor_bin, 1) - mean.y,
-                                          xyz(sensor_bin, 2) - mean.z));
-        });
-    };
-    colour.cct_k = linear(&spectral::ColourTemperature::cct_k);
-    colour.duv = linear(&spectral::ColourTemperature::duv);
-    return colour;
-}
-
-std::vector<Quantity> Readings::quantities(const SceneParts& parts) const {
-    const Calibration calibration(*this);
-    std::vector<Quantity> quantities;
-    for (std::size_t i = 0; i < observers_.size(); ++i) {
-        const ObserverBins& bins = observers_[i];
-        const Observer& observer = parts.observers[bins.observer];
-        const auto report = [&](std::string name, const char* quantity, const char* unit,
-                                std::size_t bin) {
-            const std::size_t i = bins.first_bin + bin;
-            quantities.push_back({std::move(name), quantity, unit, luminance_[i],
-                                  colour(calibration, i), result_of_sensor(calibration, i)});
-        };
-        if (const auto* points = std::get_if<IlluminancePoints>(&observer)) {
-            for (std::size_t k = 0; k < bins.count; ++k) {
-                report(point_name(*points, k), "illuminance", "lx", k);
-            }
-        } else if (const auto* meter = std::get_if<LuminanceMeter>(&observer)) {
-            report(meter->name, "luminance", "cd/m2", 0);
-        }
-    }
-    return quantities;
-}
-
-std::vector<DerivedQuantity> Readings::derived(const SceneParts& parts) const {
-    const Calibration calibration(*this);
-    std::vector<DerivedQuantity> derived;
-    for (std::size_t i = 0; i < observers_.size(); ++i) {
-        const ObserverBins& bins = observers_[i];
-        const auto* points = std::get_if<IlluminancePoints>(&parts.observers[bins.observer]);
-        if (points == nullptr || bins.count < 2) continue;
-        const std::size_t first = bins.first_bin;
-        const auto y_of_mean = [&](std::size_t bin) { return calibration.value(bin, 1); };
-        std::size_t least = 0;
-        std::size_t greatest = 0;
-        for (std::size_t k = 0; k < bins.count; ++k) {
-            const double value = y_of_mean(first + k);
-            if (value < y_of_mean(first + least)) least = k;
-            if (value > y_of_mean(first + greatest)) greatest = k;
-        }
-        const auto mean_of = [&](auto&& value) {
-            double sum = 0.0;
-            for (std::size_t k = 0; k < bins.count; ++k) sum += value(first + k, 1);
-            return sum / static_cast<double>(bins.count);
-        };
-        const auto at = [&](std::size_t k) {
-            return [&, k](auto&& value) { return value(first + k, 1); };
-        };
-        const auto candidates_for = [&](std::size_t chosen) {
-            double candidates = 1.0;
-            for (std::size_t k = 0; k < bins.count; ++k) {
-                // Points share photons and wavelengths, so that their difference is often known far
-                // better than they are.
-                const Uncertain apart = calibration.of(
-                    [&](auto&& value) { return value(first + k, 1) - value(first + chosen, 1); });
-                const bool rival = std::abs(apart.value) <= rival_errors * apart.standard_error;
-                if (k != chosen && rival) ++candidates;
-            }
-            return candidates;
-        };
-        // What is left of biases of points is not correlated: on the dark side of a step it is
-        // light too many, on the bright one too few.
-        const auto bias_left = [&](std::size_t k) {
-            return result_of_sensor(calibration, first + k).bias_left;
-        };
-        double square_of_biases = 0.0;
-        for (std::size_t k = 0; k < bins.count; ++k) square_of_biases += square(bias_left(k));
-        const double bias_of_mean = std::sqrt(square_of_biases) / static_cast<double>(bins.count);
-        const auto relative = [](double bias, double value) {
-            return value > 0.0 ? bias / value : 0.0;
-        };
-        const auto report = [&](const char* what, const char* quantity, const char* unit,
-                                Uncertain result, double candidates, double bias) {
-            result.candidates = candidates;
-            result.bias_left = bias;
-            derived.push_back({points->name + ": " + what, quantity, unit, result});
-        };
-        const double of_least = candidates_for(least);
-        const double of_greatest = candidates_for(greatest);
-        report("mean", "average illuminance", "lx", calibration.of(mean_of), 1.0, bias_of_mean);
-        report("minimum", "minimum illuminance", "lx", calibration.of(at(least)), of_least,
-               bias_left(least));
-        report("maximum", "maximum illuminance", "lx", calibration.of(at(greatest)), of_greatest,
-               bias_left(greatest));
-        const double of_value = relative(bias_left(least), y_of_mean(first + least));
-        const auto ratio_to = [&](auto&& denominator) {
-            return calibration.of(
-                [&](auto&& value) { return value(first + least, 1) / denominator(value); });
-        };
-        const auto bias_of_ratio = [&](const Uncertain& ratio, double bias, auto&& denominator) {
-            const double value = denominator(
-                [&](std::size_t bin, std::size_t part) { return calibration.value(bin, part); });
-            return ratio.value * std::hypot(of_value, relative(bias, value));
-        };
-        const Uncertain uniformity = ratio_to(mean_of);
-        report("uniformity U0", "illuminance uniformity, minimum / average", "1", uniformity,
-               of_least, bias_of_ratio(uniformity, bias_of_mean, mean_of));
-        const Uncertain diversity = ratio_to(at(greatest));
-        report("diversity Ud", "illuminance diversity, minimum / maximum", "1", diversity,
-               of_least * of_greatest, bias_of_ratio(diversity, bias_left(greatest), at(greatest)));
-    }
-    return derived;
 }
 
 std::size_t Readings::bytes() const {

@@ -10,6 +10,8 @@
 
 namespace lucerna::optics {
 
+class Calibration;
+
 /// The bins of one observer: pixels, points, or the one reading of a meter. Those of all sensors
 /// come before those of cameras.
 struct ObserverBins {
@@ -120,8 +122,6 @@ private:
                            ImageMeans& means);
     void fold_sensors(const Phase& phase, PhaseReadings& readings);
     ImageError image_error(const ObserverBins& bins) const;
-    // X, Y and Z of all sensors without the luck of the wavelengths, as functionals of means.
-    class Calibration;
     Uncertain result_of_sensor(const Calibration& calibration, std::size_t bin) const;
     std::optional<Colour> colour(const Calibration& calibration, std::size_t sensor_bin) const;
 

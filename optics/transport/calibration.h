@@ -1,0 +1,69 @@
+// Readings of sensors without the luck of the wavelengths of their phases.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/batch_means.h"
+
+namespace lucerna::optics {
+
+/// The wavelengths of a phase bring more or less of the emission than there is, which is known: by
+/// 0.5 % of its luminance, and much more of its colour. Readings follow that as far as their light
+/// comes straight or is scattered, wholly in grey scenes; light behind dispersive glass has
+/// wavelengths of its own. By how much is a regression over batches of phases, so that what is
+/// reported is a ratio estimator where that is of use. It is biased by O(1 / phases) of the phases'
+/// variance.
+class Calibration {
+public:
+    /// @param sums      X, Y, Z of each bin, and last those of the emission of all lights on the
+    ///     wavelengths of the phases.
+    /// @param emission  X, Y, Z of all lights, exact.
+    Calibration(const BatchMeans& sums, const Vec3& emission)
+        : sums_(sums), emission_(emission), first_of_emission_(sums.value_count() - 3) {
+        // Fewer tell no slope: all light is taken to follow the emission.
+        constexpr std::size_t least_batches = 8;
+        follows_.assign(first_of_emission_, 1.0);
+        if (sums_.batches() < least_batches) return;
+        regressed_ = true;
+        for (std::size_t i = 0; i < follows_.size(); ++i) {
+            follows_[i] = std::clamp(sums_.relative_slope(i, first_of_emission_ + i % 3), 0.0, 1.0);
+        }
+    }
+
+    /// X, Y or Z (part 0, 1, 2) of a bin, from mean(value number).
+    template <typename Mean>
+    double value(Mean&& mean, std::size_t bin, std::size_t part) const {
+        const std::size_t i = 3 * bin + part;
+        const double reading = mean(i);
+        if (follows_[i] == 0.0) return reading;
+        return reading * std::pow(emission_[static_cast<Eigen::Index>(part)] /
+                                      mean(first_of_emission_ + part),
+                                  follows_[i]);
+    }
+    double value(std::size_t bin, std::size_t part) const {
+        return value([&](std::size_t i) { return sums_.mean(i); }, bin, part);
+    }
+
+    /// functional(value), where value(bin, part) are those of the means; less one degree of freedom
+    /// for the slope.
+    template <typename Functional>
+    Uncertain of(const Functional& functional) const {
+        Uncertain result = sums_.of([&](auto&& mean) {
+            return functional(
+                [&](std::size_t bin, std::size_t part) { return value(mean, bin, part); });
+        });
+        if (regressed_) result.degrees_of_freedom -= 1.0;
+        return result;
+    }
+
+private:
+    const BatchMeans& sums_;
+    const Vec3& emission_;
+    std::size_t first_of_emission_;
+    std::vector<double> follows_;
+    bool regressed_ = false;
+};
+
+}  // namespace lucerna::optics

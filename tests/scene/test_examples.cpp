@@ -22,8 +22,9 @@ double total_lm(const SceneFile& scene) {
 }  // namespace
 
 TEST_CASE("All examples are read", "[unit]") {
-    const std::string name = GENERATE("cornell_box", "cornell_caustic", "light_guides_1",
-                                      "light_guides_2", "light_guides_3", "room2");
+    const std::string name =
+        GENERATE("cornell_box", "cornell_caustic", "light_guides_1", "light_guides_2",
+                 "light_guides_3", "room2", "prism_spectrum");
     const SceneFile scene = example(name);
     CHECK(std::filesystem::equivalent(scene.files.front(),
                                       std::filesystem::path(LUCERNA_EXAMPLES) / (name + ".yaml")));
@@ -33,6 +34,27 @@ TEST_CASE("All examples are read", "[unit]") {
     for (const Light& light : scene.parts.lights)
         CHECK_THAT(summary, Catch::Contains(light.name + " ("));
     for (const std::string& warning : scene.warnings) CHECK_THAT(summary, Catch::Contains(warning));
+}
+
+TEST_CASE("The prism turns light of 550 nm least, to the middle of its screen", "[analytic]") {
+    const SceneFile scene = example("prism_spectrum");
+    const double half_apex_rad = std::atan2(34.641016, 60.0);
+    const auto& beam = std::get<BeamLight>(scene.parts.lights.at(0).source);
+    const Object& prism = scene.parts.objects.at(0);
+    const double index = scene.parts.spectra[scene.parts.media[*prism.interior].index].at(550.0);
+    // n sin(A / 2) = sin i: Born and Wolf, 7th ed., 4.7.2. Entry and exit are alike.
+    const Vec3 entry_normal(-std::cos(half_apex_rad), 0.0, std::sin(half_apex_rad));
+    const double sine = beam.direction.cross(entry_normal).norm();
+    CHECK_THAT(sine, WithinRel(index * std::sin(half_apex_rad), 1e-4));
+    const Vec3 out(beam.direction.x(), 0.0, -beam.direction.z());
+    const auto middle_of = [](const Shape& shape) -> Vec3 {
+        const auto& rectangle = std::get<Rectangle>(shape);
+        return rectangle.corner + 0.5 * (rectangle.edge_u + rectangle.edge_v);
+    };
+    const Vec3 start = middle_of(beam.cross_section);
+    const Vec3 mirrored(-start.x(), 0.0, start.z());  // on the way out
+    const Vec3 way = middle_of(scene.parts.objects.at(1).shape) - mirrored;
+    CHECK(way.cross(out).norm() < 1e-3);
 }
 
 TEST_CASE("The Cornell box is the published one", "[published]") {

@@ -18,17 +18,29 @@ std::uint32_t block_count(std::uint32_t rays) {
     return (rays + forward_rays_per_block - 1) / forward_rays_per_block;
 }
 
+// Whether light that reaches planes of sensors is traced by rays of its own, which have wavelengths
+// of their own.
+bool traces_planes_apart(const TraceContext& context, Reach reach) {
+    return reach == Reach::first_scattering && context.stage.disperses() &&
+           context.planes.count() > 0;
+}
+
+// How often a trace follows each of its rays.
+std::uint32_t times_traced(const TraceContext& context, Reach reach) {
+    return traces_planes_apart(context, reach) && context.stage.has_scattering() ? 2 : 1;
+}
+
 // The photons of one history: caustics need no path beyond the first scattering event.
 ForwardMap forward_map(const Phase& phase, const TraceContext& context, History history,
                        const Emission& emission, std::uint32_t rays, const Radii& radii,
                        ForwardTally& tally, RayCounts& counts) {
     const bool caustic = history == History::caustic;
+    const Reach reach = caustic ? Reach::first_scattering : Reach::whole_path;
     const Stopwatch watch;
-    const std::vector<Photon> photons = trace_photons(
-        phase, context, emission, caustic ? Reach::first_scattering : Reach::whole_path,
-        mask(history), rays, tally);
+    const std::vector<Photon> photons =
+        trace_photons(phase, context, emission, reach, mask(history), rays, tally);
     counts.caustic_s += watch.seconds();
-    counts.caustic_rays += rays;
+    counts.caustic_rays += std::uint64_t{times_traced(context, reach)} * rays;
     counts.forward_photons += photons.size();
     counts.forward_segments += tally.segments;
     const Stopwatch map_watch;
@@ -127,8 +139,7 @@ std::vector<Photon> trace_photons(const Phase& phase, const TraceContext& contex
                                   const Emission& emission, Reach reach, std::uint8_t histories,
                                   std::uint32_t rays, ForwardTally& tally) {
     const Stage& stage = context.stage;
-    const bool own_wavelengths =
-        reach == Reach::first_scattering && stage.disperses() && context.planes.count() > 0;
+    const bool own_wavelengths = traces_planes_apart(context, reach);
     const std::uint32_t blocks = block_count(rays);
     const std::uint32_t tasks = own_wavelengths ? 2 * blocks : blocks;
     std::vector<std::vector<Photon>> photons(tasks);

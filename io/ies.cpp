@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "io/ies_opening.h"
-#include "optics/light/goniometer.h"
+#include "io/ies_planes.h"
 
 namespace lucerna {
 namespace {
@@ -76,8 +76,6 @@ private:
     void check_increasing(const std::vector<double>& angles, std::size_t first_word,
                           const char* name);
     Opening read_opening(double width, double length, double height, const Word& place);
-    PlaneTable full_circle_of_type_c();
-    PlaneTable full_circle_of_types_a_and_b();
     PhotometricFile assemble(double tilt_factor);
 
     // The next number of the data; `what` names it in the message.
@@ -100,7 +98,6 @@ private:
     std::vector<double> vertical_deg_, horizontal_deg_;
     std::size_t vertical_word_ = 0, horizontal_word_ = 0;
     std::vector<std::vector<double>> table_;  // [horizontal][vertical]
-    std::string symmetry_;
     Opening opening_;
 };
 
@@ -421,104 +418,16 @@ Opening IesReader::read_opening(double width_m, double length_m, double height_m
                          "instance, width and length above 0 and height 0 for a rectangle");
 }
 
-PlaneTable IesReader::full_circle_of_type_c() {
-    PlaneTable table{horizontal_deg_, vertical_deg_, table_};
-    const Word& place = words_[horizontal_word_];
-    const double first = horizontal_deg_.front();
-    double last = horizontal_deg_.back();
-    if (horizontal_deg_.size() == 1) {
-        if (first != 0.0)
-            deviates(place.line, fmt::format("the single plane is at {}, not at 0", first));
-        table.c_deg = {0.0};
-        symmetry_ = "rotational";
-        return table;
-    }
-    if (first == 90.0 && last == 270.0) {
-        symmetry_ = "C90-C270";
-        return mirrored_at_c90(table);
-    }
-    if (first == 0.0 && last > 180.0 && last < 360.0) {
-        double widest = 0.0;
-        for (std::size_t i = 1; i < table.c_deg.size(); ++i) {
-            widest = std::max(widest, table.c_deg[i] - table.c_deg[i - 1]);
-        }
-        if (360.0 - last <= 1.01 * widest) {
-            deviates(place.line, fmt::format("the last plane is at {}; the plane at 0 is taken for "
-                                             "the missing one at 360",
-                                             last));
-            table.add_plane(360.0, std::vector<double>(table.values.front()));
-            last = 360.0;
-        }
-    }
-    if (first == 0.0 && last == 360.0) {
-        symmetry_ = "none";
-        return table;
-    }
-    if (first == 0.0 && last == 180.0) {
-        symmetry_ = "C0-C180";
-        return mirrored_at_last_plane(table);
-    }
-    if (first == 0.0 && last == 90.0) {
-        symmetry_ = "C0-C180 and C90-C270";
-        return mirrored_at_last_plane(mirrored_at_last_plane(table));
-    }
-    throw InputError(
-        file_.at(place.line, place.column),
-        fmt::format(
-            "horizontal angles from {} to {}; expected 0 alone, or from 0 to 90, 180 or 360, "
-            "or from 90 to 270",
-            first, last));
-}
-
-// Bilinear in the goniometer's own angles, evaluated on C planes at half the spacing of the file.
-PlaneTable IesReader::full_circle_of_types_a_and_b() {
-    const Word& place = words_[horizontal_word_];
-    const bool mirrored = horizontal_deg_.front() == 0.0;
-    const double reach = horizontal_deg_.back();
-    if (horizontal_deg_.size() < 2 || !(reach > 0.0) || reach > 180.0 ||
-        (!mirrored && horizontal_deg_.front() != -reach)) {
-        throw InputError(
-            file_.at(place.line, place.column),
-            fmt::format("horizontal angles from {} to {}; expected -90 to 90, or 0 to 90 "
-                        "for photometric type {}",
-                        horizontal_deg_.front(), reach, type_));
-    }
-    if (reach != 90.0) {
-        deviates(place.line,
-                 fmt::format("the last horizontal angle is {}, not 90; the luminaire is "
-                             "taken as dark outside",
-                             reach));
-    }
-    symmetry_ = mirrored ? "H" : "none";
-
-    const optics::GoniometerTable source(
-        type_ == 'A' ? optics::GoniometerType::a : optics::GoniometerType::b, mirrored,
-        horizontal_deg_, vertical_deg_, table_);
-    const int steps_per_degree =
-        std::clamp(static_cast<int>(std::ceil(2.0 / source.finest_spacing_deg())), 1, 4);
-    PlaneTable table;
-    for (int g = 0; g <= 180 * steps_per_degree; ++g) {
-        table.gamma_deg.push_back(static_cast<double>(g) / steps_per_degree);
-    }
-    for (int c = 0; c <= 360 * steps_per_degree; ++c) {
-        const double c_deg = static_cast<double>(c) / steps_per_degree;
-        std::vector<double> plane;
-        for (const double gamma_deg : table.gamma_deg) {
-            plane.push_back(source.at(optics::IntensityDistribution::direction(c_deg, gamma_deg)));
-        }
-        table.add_plane(c_deg, plane);
-    }
-    notes_.push_back(fmt::format("photometric type {}, resampled onto C planes every {:g} deg",
-                                 type_, 1.0 / steps_per_degree));
-    return table;
-}
-
 PhotometricFile IesReader::assemble(double tilt_factor) {
-    PlaneTable table = type_ == 'C' ? full_circle_of_type_c() : full_circle_of_types_a_and_b();
-    for (auto& plane : table.values) {
+    const Word& place = words_[horizontal_word_];
+    FullCircle circle = full_circle(type_, {horizontal_deg_, vertical_deg_, table_},
+                                    file_.at(place.line, place.column));
+    for (std::string& text : circle.deviations) deviates(place.line, std::move(text));
+    for (std::string& note : circle.notes) notes_.push_back(std::move(note));
+    for (auto& plane : circle.table.values) {
         for (double& value : plane) value *= factor_ * tilt_factor;
     }
-    PhotometricFile result = photometric_file(file_, table, words_[horizontal_word_].line);
+    PhotometricFile result = photometric_file(file_, circle.table, place.line);
     result.format = fmt::format("IES LM-63-{}", year_);
     const auto keyword = [&](const char* key) {
         for (const auto& [name, value] : keywords_) {
@@ -536,7 +445,7 @@ PhotometricFile IesReader::assemble(double tilt_factor) {
     }
     result.keywords = std::move(keywords_);
     result.photometric_type = type_;
-    result.symmetry = symmetry_;
+    result.symmetry = circle.symmetry;
     result.stored_planes = horizontal_deg_.size();
     result.absolute = lamp_flux_lm_ <= 0.0;
     if (!result.absolute) {

@@ -88,9 +88,8 @@ WavelengthSampler::WavelengthSampler(const Spectrum& emission, Dispersion disper
 WavelengthSet WavelengthSampler::sample(std::uint64_t seed, std::uint32_t phase,
                                         std::uint32_t part) const {
     RandomStream random(seed, phase, RandomPurpose::wavelengths, 0);
-    // Multiples of 1 / x and 1 / x^2, x^3 = x + 1, are spread evenly over the square (R. Schretter
-    // et al., "Golden ratio sequences for low-discrepancy sampling", JGT 16(2), 2012, for one
-    // dimension; two by the same root of the next degree).
+    // Multiples of 1 / x and 1 / x^2, x^3 = x + 1, are spread evenly over the square (M. Roberts,
+    // "The unreasonable effectiveness of quasirandom sequences", 2018: R2).
     constexpr double inverse_root = 0.75487766624669276;
     const auto moved = [part](double u, double by) {
         const double sum = u + part * by;

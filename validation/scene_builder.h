@@ -36,9 +36,17 @@ struct SceneBuilder {
     }
 
     /// Without absorption.
-    optics::MediumId dispersive_medium(const spectral::Spectrum& index) {
+    /// @param index_at  index(wavelength in nm), tabulated at each nanometre.
+    template <typename Function>
+    optics::MediumId dispersive_medium(const Function& index_at) {
+        std::vector<double> wavelengths_nm, indices;
+        for (double nm = spectral::min_wavelength_nm; nm <= spectral::max_wavelength_nm; ++nm) {
+            wavelengths_nm.push_back(nm);
+            indices.push_back(index_at(nm));
+        }
         const optics::MediumId id = medium(1.0);
-        parts.media[id].index = parts.add(index);
+        parts.media[id].index =
+            parts.add(spectral::Spectrum(wavelengths_nm, indices, spectral::Outside::hold));
         parts.media[id].dispersive = true;
         return id;
     }

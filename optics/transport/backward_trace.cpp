@@ -384,41 +384,14 @@ private:
     }
 
     Gathered gathered(const GatherPoint& at, std::uint8_t histories) {
-        const std::uint32_t patch = kernel_patch(phase_.stage, at.point);
-        const bool caustic = (histories & mask(History::caustic)) && !maps_.caustic.empty();
-        const bool indirect = (histories & mask(History::indirect)) && !maps_.indirect.empty();
-        GatherPoint narrowed = at;
-        if (indirect) {
-            narrowed.most_radius_m =
-                std::min(at.most_radius_m, rays_.kernel_scale * maps_.indirect_radii[patch]);
-        }
-        std::optional<KernelRegion> region;
-        if (rays_.barriers && (caustic || indirect)) {
-            const double radius_m =
-                std::max(caustic ? std::min(at.most_radius_m, maps_.caustic_radii[patch]) : 0.0,
-                         indirect ? narrowed.most_radius_m : 0.0);
-            const Vec3 side = at.wo.z() > 0.0 ? at.frame.normal : Vec3(-at.frame.normal);
-            region = KernelRegion::within(phase_.stage, at.point, side, radius_m);
-            if (region) ++cut_kernels_;
-        }
-        Gathered sum;
-        if (caustic) {
-            GatherPoint cut = at;
-            if (region) cut.region = &*region;
-            cut.tells_steps = !camera_rays_;
-            if (scatterings_ == 0) cut.but_of = rays_.looks_for;
-            sum += maps_.caustic.gather(phase_, maps_.caustic_radii, cut);
-        }
-        if (indirect) {
-            if (region) narrowed.region = &*region;
-            narrowed.tells_steps = !camera_rays_;
-            const Gathered found = maps_.indirect.gather(phase_, maps_.indirect_radii, narrowed);
-            if (camera_rays_) {
-                kernel_bias_ += phase_.luminous(path_.weight * found.bias);
-            }
-            sum += found;
-        }
-        return sum;
+        GatherPoint own = at;
+        own.tells_steps = !camera_rays_;
+        if (scatterings_ == 0) own.but_of = rays_.looks_for;
+        const ForwardMaps::Found found =
+            maps_.gather(phase_, own, histories, rays_.kernel_scale, rays_.barriers);
+        if (found.cut) ++cut_kernels_;
+        if (camera_rays_) kernel_bias_ += phase_.luminous(path_.weight * found.indirect_bias);
+        return found.light;
     }
 
     void add(const Gathered& gathered, const Lanes& weight) {

@@ -5,6 +5,7 @@
 #include "optics/transport/backward_rays.h"
 #include "optics/transport/collection.h"
 #include "optics/transport/direct_light.h"
+#include "optics/transport/forward_maps.h"
 #include "optics/transport/readings.h"
 
 namespace lucerna::optics {

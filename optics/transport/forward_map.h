@@ -137,11 +137,4 @@ private:
     double rays_ = 1.0;
 };
 
-/// The maps that are gathered at the first scattering event. Each history has a map of its own:
-/// caustics are narrow and need narrow kernels, indirect light is smooth and bears wide ones.
-struct ForwardMaps {
-    ForwardMap caustic, indirect;
-    Radii caustic_radii, indirect_radii;
-};
-
 }  // namespace lucerna::optics

@@ -14,8 +14,8 @@ namespace {
 // might be the least in truth.
 constexpr double rival_errors = 2.0;
 
-// Spectra are carried in single precision. Of direct light, which is read with hardly any noise
-// once the luck of the wavelengths is taken off, up to 2e-7 is seen.
+// Share of a value that single precision of spectra may round: of direct light, which is read with
+// hardly any noise once the luck of the wavelengths is taken off, up to 2e-7 is seen.
 constexpr double rounding = 1e-6;
 
 const std::string& name_of(const Observer& observer) {
@@ -186,7 +186,7 @@ std::vector<DerivedQuantity> Readings::derived(const SceneParts& parts) const {
         const auto report = [&](const char* what, const char* quantity, const char* unit,
                                 Uncertain result, double candidates, double bias) {
             result.candidates = candidates;
-            result.bias_left = bias;
+            result.bias_left = std::max(bias, rounding * std::abs(result.value));
             derived.push_back({points->name + ": " + what, quantity, unit, result});
         };
         const double of_least = candidates_for(least);

@@ -3,7 +3,7 @@
 #include "spectral/colorimetry.h"
 #include "spectral/illuminants.h"
 #include "tests/support/truth_checks.h"
-#include "validation/truth/pane_shadow.h"
+#include "validation/cases/pane_shadow.h"
 #include "validation/truth/polygon_light.h"
 
 using namespace lucerna;
@@ -125,12 +125,26 @@ TEST_CASE("Readings are known without the luck of the wavelengths", "[analytic]"
         const Uncertain reading = result.quantities[i].result();
         const Estimate& as_read = result.quantities[i].estimate;
         CHECK(agrees(reading, illuminance(row[i])));
+        CHECK(reading.degrees_of_freedom == 30.0);  // the regression takes one
         CHECK(reading.standard_error < 0.1 * as_read.standard_error());
         CHECK(reading.standard_error < 1e-4 * illuminance(row[i]));
         // The twin: what was read is off by more than the reading's error.
         CHECK_FALSE(agrees({as_read.value(), reading.standard_error, reading.degrees_of_freedom},
                            illuminance(row[i])));
     }
+}
+
+TEST_CASE("U holds what single precision rounds", "[analytic]") {
+    SceneBuilder scene;
+    scene.light("lamp", PointLight{{0.3, 0.4, 1.2}}, 4.0 * pi * 100.0);
+    scene.object("floor", Rectangle{{-1, -1, -1}, {2, 0, 0}, {0, 2, 0}}, scene.black());
+    scene.points({Vec3::Zero()}, Vec3::UnitZ());
+    const Uncertain reading = test::run(scene, Method::combined, {64, 100}).quantities[0].result();
+    const double off = std::abs(reading.value - 100.0 * 1.2 / std::pow(1.3, 3));
+    CAPTURE(reading.value, off, reading.standard_error);
+    CHECK(off <= reading.expanded_uncertainty());
+    CHECK(reading.expanded_uncertainty() < 2e-6 * reading.value);
+    CHECK(off > 5.0 * reading.standard_error);  // the twin: noise alone
 }
 
 TEST_CASE("Light that does not follow the sum of all lights is not calibrated by it",
@@ -230,24 +244,13 @@ TEST_CASE("Caustic light beside a wall does not read low", "[analytic]") {
 }
 
 TEST_CASE("U of points beside a sharp shadow holds what the step of light leaves", "[analytic]") {
-    // A point light through a wide pane, and a screen. No ray finds the light, kernels read it.
     constexpr truth::PaneShadow shadow{.intensity_cd = 100.0,
                                        .lamp_height_m = 1.0,
                                        .pane_thickness_m = 0.01,
                                        .pane_index = 1.5,
                                        .screen_height_m = 0.1,
                                        .screen_edge_m = 0.2};
-    SceneBuilder scene;
-    scene.object("floor", Rectangle{{-2, -2, 0}, {4, 0, 0}, {0, 4, 0}}, scene.black());
-    scene.solid(
-        "pane",
-        Box{Placement(Eigen::Translation3d(-1.5, -1.5, 0.7)), {3.0, 3.0, shadow.pane_thickness_m}},
-        scene.medium(shadow.pane_index));
-    scene.object(
-        "screen",
-        Rectangle{{shadow.screen_edge_m, -1, shadow.screen_height_m}, {0.6, 0, 0}, {0, 2, 0}},
-        scene.black());
-    scene.light("lamp", PointLight{{0, 0, shadow.lamp_height_m}}, 4.0 * pi * shadow.intensity_cd);
+    SceneBuilder scene = validation::pane_and_screen(shadow);
     std::vector<Vec3> positions;
     for (const double beside_m : {0.0001, 0.0003, 0.001}) {
         positions.emplace_back(shadow.shadow_edge_m() - beside_m, 0.0, 1e-4);

@@ -10,9 +10,15 @@ using namespace lucerna::optics;
 
 namespace {
 
-Result run(int threads, std::uint64_t seed, Method method,
-           Scheduler scheduler = Scheduler::ordered) {
+Result run(int threads, std::uint64_t seed, Method method, Scheduler scheduler = Scheduler::ordered,
+           bool disperses = false) {
     auto scene = test::cornell_caustic(40);
+    if (disperses) {
+        Medium& glass = scene.parts.media.at(0);
+        glass.dispersive = true;
+        glass.index = scene.parts.add(
+            spectral::Spectrum({360.0, 830.0}, {1.56, 1.50}, spectral::Outside::hold));
+    }
     scene.points({{0.5, 0.4, 0.5}, {0.2, 0.4, 0.5}}, Vec3::UnitY());
     scene.receiver(0);
     Settings settings;
@@ -36,7 +42,11 @@ bool same_bits(const Result& a, const Result& b) {
     bool equal = same(p.luminance, q.luminance) && same(p.x, q.x) && same(p.z, q.z) &&
                  same(p.spectral_radiance, q.spectral_radiance);
     for (std::size_t i = 0; i < a.quantities.size(); ++i) {
-        equal = equal && a.quantities[i].estimate.mean() == b.quantities[i].estimate.mean();
+        const Quantity &one = a.quantities[i], &other = b.quantities[i];
+        equal = equal && one.estimate.mean() == other.estimate.mean() &&
+                one.result().value == other.result().value &&
+                one.colour.has_value() == other.colour.has_value() &&
+                (!one.colour || one.colour->x.value == other.colour->x.value);
     }
     return equal && a.flux_balance_lm.absorbed == b.flux_balance_lm.absorbed;
 }
@@ -51,6 +61,12 @@ TEST_CASE("Same seed, same bits with 1, 2, 3 and 8 threads", "[golden]") {
         CHECK(same_bits(one, run(threads, 5, method)));
     }
     CHECK_FALSE(same_bits(one, run(1, 6, method)));
+}
+
+TEST_CASE("Sensors behind dispersive glass read the same bits with 1 and 3 threads", "[golden]") {
+    const Result one = run(1, 5, Method::combined, Scheduler::ordered, true);
+    CHECK(same_bits(one, run(3, 5, Method::combined, Scheduler::ordered, true)));
+    CHECK_FALSE(same_bits(one, run(1, 5, Method::combined)));  // it matters
 }
 
 TEST_CASE("Phases of their own threads give the same bits as one after the other", "[golden]") {

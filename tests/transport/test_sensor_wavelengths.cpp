@@ -21,19 +21,14 @@ struct BallBeforeScreen {
 
     static double index_at(double nm) { return 1.5 + 5e3 * (1.0 / (nm * nm) - 1.0 / 3.025e5); }
 
+    /// @param screen_reflectance  0: black, so that nothing in the scene scatters.
     static SceneBuilder scene(double screen_reflectance, const Disk& section) {
         SceneBuilder builder;
-        std::vector<double> wavelengths_nm, indices;
-        for (int nm = 360; nm <= 830; ++nm) {
-            wavelengths_nm.push_back(nm);
-            indices.push_back(index_at(nm));
-        }
-        builder.solid(
-            "ball", Sphere{Vec3::Zero(), radius_m},
-            builder.dispersive_medium({wavelengths_nm, indices, spectral::Outside::hold}));
+        builder.solid("ball", Sphere{Vec3::Zero(), radius_m}, builder.dispersive_medium(index_at));
         builder.light("beam", BeamLight{section, Vec3::UnitZ()}, irradiance_lx * area_m2(section));
-        builder.object("screen", Rectangle{{-1, -1, ball.screen_m + 1e-6}, {0, 2, 0}, {2, 0, 0}},
-                       builder.diffuse(screen_reflectance));
+        builder.object(
+            "screen", Rectangle{{-1, -1, ball.screen_m + 1e-6}, {0, 2, 0}, {2, 0, 0}},
+            screen_reflectance > 0.0 ? builder.diffuse(screen_reflectance) : builder.black());
         builder.points({{height_m, 0, ball.screen_m}}, -Vec3::UnitZ());
         return builder;
     }

@@ -2,8 +2,7 @@
 #include <fmt/format.h>
 
 #include "validation/cases.h"
-#include "validation/scene_builder.h"
-#include "validation/truth/pane_shadow.h"
+#include "validation/cases/pane_shadow.h"
 
 namespace lucerna::validation {
 namespace {
@@ -11,19 +10,7 @@ namespace {
 using namespace optics;
 
 Case beside(const truth::PaneShadow& shadow, const std::string& id) {
-    SceneBuilder scene;
-    // The pane is so wide, and so near to the lamp, that light by way of its rim lands far away.
-    constexpr double pane_m = 3.0, pane_height_m = 0.7;
-    scene.object("floor", Rectangle{{-2, -2, 0}, {4, 0, 0}, {0, 4, 0}}, scene.black());
-    scene.solid("pane",
-                Box{Placement(Eigen::Translation3d(-0.5 * pane_m, -0.5 * pane_m, pane_height_m)),
-                    {pane_m, pane_m, shadow.pane_thickness_m}},
-                scene.medium(shadow.pane_index));
-    scene.object(
-        "screen",
-        Rectangle{{shadow.screen_edge_m, -1, shadow.screen_height_m}, {0.6, 0, 0}, {0, 2, 0}},
-        scene.black());
-    scene.light("lamp", PointLight{{0, 0, shadow.lamp_height_m}}, 4.0 * pi * shadow.intensity_cd);
+    SceneBuilder scene = pane_and_screen(shadow);
     Case result{.id = id,
                 .title = fmt::format(
                     "beside the shadow of a screen {:g} m over the floor, lit by a "

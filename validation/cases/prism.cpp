@@ -60,15 +60,9 @@ PrismScene prism_scene(const spectral::Spectrum& light, double least_nm, double 
         1.0,         beam_width_m};
 
     SceneBuilder scene;
-    std::vector<double> wavelengths_nm;
-    std::vector<double> indices;
-    for (int nm = 360; nm <= 830; ++nm) {
-        wavelengths_nm.push_back(nm);
-        indices.push_back(index_at(nm));
-    }
-    const spectral::Spectrum index(wavelengths_nm, indices, spectral::Outside::hold);
-    scene.solid("prism", MeshInstance{prism_mesh(), Placement::Identity()},
-                scene.dispersive_medium(index));
+    const MediumId glass = scene.dispersive_medium(index_at);
+    const spectral::Spectrum index = scene.parts.spectra[scene.parts.media[glass].index];
+    scene.solid("prism", MeshInstance{prism_mesh(), Placement::Identity()}, glass);
     // Takes what the exit face reflects: after three reflections it would join the beam.
     scene.object("base", Rectangle{{-0.033, -0.049, -0.059}, {0.066, 0, 0}, {0, 0.098, 0}},
                  scene.black());

@@ -27,14 +27,6 @@ struct Dispersion {
         lens.index += b_nm2 * (1.0 / (nm * nm) - 1.0 / (550.0 * 550.0));
         return lens;
     }
-    spectral::Spectrum index(const RoundLens& lens) const {
-        std::vector<double> wavelengths_nm, indices;
-        for (int nm = 360; nm <= 830; ++nm) {
-            wavelengths_nm.push_back(nm);
-            indices.push_back(at(lens, nm).index);
-        }
-        return {wavelengths_nm, indices, spectral::Outside::hold};
-    }
 };
 
 constexpr Dispersion crown{5e3};
@@ -48,8 +40,10 @@ Case behind(const std::string& id, const RoundLens& lens, const std::vector<doub
             std::uint32_t phases, std::uint32_t rays, const Dispersion& dispersion = {}) {
     SceneBuilder scene;
     const bool disperses = dispersion.b_nm2 > 0.0;
-    const MediumId glass = disperses ? scene.dispersive_medium(dispersion.index(lens))
-                                     : scene.medium(lens.index, lens.absorption_per_m);
+    const MediumId glass =
+        disperses
+            ? scene.dispersive_medium([&](double nm) { return dispersion.at(lens, nm).index; })
+            : scene.medium(lens.index, lens.absorption_per_m);
     const Vec3 start(0.0, 0.0, -3.0 * radius_m);
     constexpr double beam_half_length_m = 0.05;
     if (lens.is_ball) {

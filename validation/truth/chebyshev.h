@@ -7,9 +7,8 @@
 
 namespace lucerna::truth {
 
-/// The polynomial through a function at Chebyshev's nodes of the first kind on [a, b]. It converges
-/// as a power of the number of nodes if the function is analytic there (Trefethen, Approximation
-/// Theory and Approximation Practice, 2013, theorem 8.2), and does not oscillate.
+/// The polynomial through a function at Chebyshev's nodes of the first kind on [a, b]. If the
+/// function is analytic there, its error falls by the same factor with each further node.
 class Chebyshev {
 public:
     template <typename Function>
@@ -22,7 +21,8 @@ public:
         }
     }
 
-    /// Barycentric formula (ibid., eq. 5.11, weights of ex. 5.4).
+    /// Second barycentric formula (Berrut and Trefethen, SIAM Review 46(3), 2004, 501-517, sections
+    /// 4 and 5).
     double operator()(double x) const {
         double above = 0.0, below = 0.0;
         for (const Node& node : nodes_) {

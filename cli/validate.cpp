@@ -16,8 +16,8 @@
 namespace lucerna::cli {
 
 ExitCode validate(const ValidateOptions& options) {
-    const std::vector<validation::Case> cases =
-        validation::selected(validation::cases_for(options.cases), options.cases);
+    const std::vector<validation::Case> cases = validation::selected(
+        validation::cases_of(validation::families_for(options.cases)), options.cases);
     if (options.list) {
         fmt::print("{}", validation::list_text(cases));
         return done;

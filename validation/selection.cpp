@@ -6,7 +6,7 @@
 #include <iterator>
 
 #include "core/diagnostics.h"
-#include "validation/cases.h"
+#include "core/parallel.h"
 
 namespace lucerna::validation {
 namespace {
@@ -35,7 +35,7 @@ bool means(const std::string& pattern, const std::string& id) {
     return pattern.find_first_of("*?") != std::string::npos && matches_beginning(pattern, id);
 }
 
-std::vector<Case> cases_for(const std::vector<std::string>& patterns) {
+std::vector<Family> families_for(const std::vector<std::string>& patterns) {
     const auto is_family = [](const std::string& name) {
         return std::any_of(families().begin(), families().end(),
                            [&](const Family& family) { return family.name == name; });
@@ -44,13 +44,23 @@ std::vector<Case> cases_for(const std::vector<std::string>& patterns) {
                       std::all_of(patterns.begin(), patterns.end(), [&](const auto& pattern) {
                           return is_family(family_of(pattern));
                       });
-    std::vector<Case> cases;
+    std::vector<Family> wanted;
     for (const Family& family : families()) {
-        const bool wanted = std::any_of(
-            patterns.begin(), patterns.end(),
-            [&](const std::string& pattern) { return family_of(pattern) == family.name; });
-        if (some && !wanted) continue;
-        std::vector<Case> own = family.cases();
+        if (!some || std::any_of(patterns.begin(), patterns.end(), [&](const auto& pattern) {
+                return family_of(pattern) == family.name;
+            })) {
+            wanted.push_back(family);
+        }
+    }
+    return wanted;
+}
+
+std::vector<Case> cases_of(const std::vector<Family>& families) {
+    std::vector<std::vector<Case>> by_family(families.size());
+    for_each_block(families.size(), hardware_threads(),
+                   [&](std::size_t i) { by_family[i] = families[i].cases(); });
+    std::vector<Case> cases;
+    for (std::vector<Case>& own : by_family) {
         std::move(own.begin(), own.end(), std::back_inserter(cases));
     }
     return cases;

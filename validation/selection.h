@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "validation/case.h"
+#include "validation/cases.h"
 
 namespace lucerna::validation {
 
@@ -12,9 +13,12 @@ namespace lucerna::validation {
 /// text and '?' for any character.
 bool means(const std::string& pattern, const std::string& id);
 
-/// The cases of all families that patterns may mean, in the order of the list; of all families for
-/// no pattern, and if a pattern begins with no family's name. Other truths are not worked out.
-std::vector<Case> cases_for(const std::vector<std::string>& patterns);
+/// The families that patterns may mean, in the order of the list; all for no pattern, and if a
+/// pattern begins with no family's name.
+std::vector<Family> families_for(const std::vector<std::string>& patterns);
+
+/// The cases of families, in their order, with their truths, which are worked out on all threads.
+std::vector<Case> cases_of(const std::vector<Family>& families);
 
 /// The cases that at least one pattern means, in their own order; all for no pattern. Throws
 /// InputError, with the nearest known name, for a pattern that means none.

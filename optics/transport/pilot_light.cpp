@@ -27,7 +27,8 @@ LightByRadius LightByRadius::around(const Vec3& point, const std::vector<Arrival
         const Vec3 way = (photon.position - point) / limit_m;
         const double square = way.squaredNorm();
         if (square >= 1.0 || square == 0.0) continue;
-        const auto step = static_cast<std::size_t>(std::min(-std::log2(square), double{steps}));
+        // Between 2^-step and half of it.
+        const auto step = std::min(static_cast<std::size_t>(-1 - std::ilogb(square)), steps);
         light.flux[step] += photon.flux;
         light.squares[step] += photon.flux * photon.flux;
         light.moment[step] += photon.flux * way;

@@ -18,16 +18,23 @@ struct Effort {
     std::optional<bool> polarisation = std::nullopt;
 };
 
-inline optics::Result run(const SceneBuilder& scene, optics::Method method, const Effort& effort,
-                          std::uint64_t seed = 7, int threads = 1) {
+inline optics::Settings settings_of(optics::Method method, const Effort& effort) {
     optics::Settings settings;
     settings.method = method;
-    settings.seed = seed;
-    settings.threads = threads;
+    settings.seed = 7;
+    settings.threads = 1;
     settings.max_phases = effort.phases;
     settings.forward_rays = effort.forward_rays;
     settings.samples_per_pixel = effort.samples_per_pixel;
     settings.polarisation = effort.polarisation;
+    return settings;
+}
+
+inline optics::Result run(const SceneBuilder& scene, optics::Method method, const Effort& effort,
+                          std::uint64_t seed = 7, int threads = 1) {
+    optics::Settings settings = settings_of(method, effort);
+    settings.seed = seed;
+    settings.threads = threads;
     return optics::simulate(scene.parts, settings);
 }
 
@@ -81,6 +88,34 @@ public:
 private:
     std::vector<Estimate> estimates_;
 };
+
+/// As Replicates, for values that are means over phases: those of batches of phases of one run,
+/// whose pilot is the same.
+/// @param effort  of a batch.
+template <typename Read>
+std::vector<Estimate> over_batches(const SceneBuilder& scene, optics::Method method,
+                                   const Effort& effort, std::uint32_t batches, Read&& read) {
+    optics::Settings settings = settings_of(method, effort);
+    settings.threads = hardware_threads();
+    settings.max_phases = batches * effort.phases;
+    std::vector<Replicates::Value> sums;  // over batches
+    std::vector<Estimate> estimates;
+    optics::Watch watch;
+    watch.on_phase = [&](const optics::RunState& state) {
+        if (state.phases % effort.phases != 0) return;
+        const double count = state.phases / effort.phases;
+        const std::vector<Replicates::Value> means = read(state.result(scene.parts));
+        sums.resize(means.size());
+        estimates.resize(means.size());
+        for (std::size_t i = 0; i < means.size(); ++i) {
+            const Replicates::Value sum{count * means[i].value, count * means[i].bias};
+            estimates[i].add(sum.value - sums[i].value, sum.bias - sums[i].bias);
+            sums[i] = sum;
+        }
+    };
+    optics::simulate(scene.parts, settings, watch);
+    return estimates;
+}
 
 /// The mean over all sensors.
 inline Replicates::Value mean_of_sensors(const optics::Result& result) {

@@ -71,9 +71,9 @@ TEST_CASE("Furnace: illuminance by photons that cross sensor planes", "[analytic
         for (int j = -4; j <= 4; ++j) positions.emplace_back(0.11 * i, 0.11 * j, 0.1);
     }
     scene.points(positions, Vec3::UnitZ());
-    const test::Replicates runs(scene, Method::forward, {8, 10000}, 16, [](const Result& result) {
-        return std::vector{test::mean_of_sensors(result)};
-    });
+    const auto runs = test::over_batches(
+        scene, Method::forward, {8, 10000}, 16,
+        [](const Result& result) { return std::vector{test::mean_of_sensors(result)}; });
     test::check_truth_over_runs(runs[0], pi * emitted / (1.0 - rho));
     test::check_refutes_over_runs(runs[0], 0.97 * pi * emitted / (1.0 - rho));
 }

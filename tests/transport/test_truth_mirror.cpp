@@ -90,8 +90,8 @@ TEST_CASE("Image source: a point light before a mirror", "[analytic]") {
     const double direct = mean(camera, from(lamp));
     const double image = mean(camera, from(mirrored(lamp)));
     INFO("camera " << camera << " method " << static_cast<int>(method));
-    const test::Replicates runs(scene, method, {4, 50000}, method == Method::backward ? 16 : 10,
-                                read_mean);
+    const auto runs = test::over_batches(
+        scene, method, {method == Method::backward ? 8u : 2u, 50000}, 10, read_mean);
     test::check_truth_over_runs(runs[0], direct + mirror_rho * image);
     test::check_refutes_over_runs(runs[0], direct + image);
 }
@@ -117,9 +117,10 @@ TEST_CASE("Image source: a rectangle before a mirror", "[analytic]") {
     const double direct = mean(camera, from(polygon));
     const double image = mean(camera, from(image_polygon));
     INFO("camera " << camera << " method " << static_cast<int>(method));
-    const test::Effort effort =
-        method == Method::path ? test::Effort{24, 100, 16} : test::Effort{3, 40000, 16};
-    const test::Replicates runs(scene, method, effort, method == Method::path ? 16 : 10, read_mean);
+    const test::Effort effort = method == Method::path
+                                    ? test::Effort{40, 100, 16}
+                                    : test::Effort{method == Method::backward ? 5u : 2u, 40000, 16};
+    const auto runs = test::over_batches(scene, method, effort, 10, read_mean);
     test::check_truth_over_runs(runs[0], direct + mirror_rho * image);
     test::check_refutes_over_runs(runs[0], direct);
 }

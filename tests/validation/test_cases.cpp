@@ -43,18 +43,20 @@ TEST_CASE("The families that are promised are in the list", "[validation]") {
 }
 
 TEST_CASE("Only truths of families that may be meant are worked out", "[validation]") {
-    const auto families_of = [](const std::vector<std::string>& patterns) {
-        std::set<std::string> names;
-        for (const Case& own : cases_for(patterns)) {
-            names.insert(own.id.substr(0, own.id.find('/')));
-        }
+    const auto names_for = [](const std::vector<std::string>& patterns) {
+        std::vector<std::string> names;
+        for (const Family& family : families_for(patterns)) names.emplace_back(family.name);
         return names;
     };
-    CHECK(families_of({"mirrors/two-point", "beer_lambert"}) ==
-          std::set<std::string>{"mirrors", "beer_lambert"});
-    CHECK(families_of({"mirrors/no-such-case"}) == std::set<std::string>{"mirrors"});
-    CHECK(families_of({}).size() == families().size());
-    CHECK(families_of({"mirrors", "mir*"}).size() == families().size());
+    CHECK(names_for({"mirrors/two-point", "beer_lambert"}) ==
+          std::vector<std::string>{"beer_lambert", "mirrors"});
+    CHECK(names_for({"mirrors/no-such-case"}) == std::vector<std::string>{"mirrors"});
+    CHECK(names_for({}).size() == families().size());
+    CHECK(names_for({"mirrors", "mir*"}).size() == families().size());
+    // Those of one family, and of that one alone.
+    const std::vector<Case> cases = cases_of(families_for({"mirrors/two-point"}));
+    REQUIRE_FALSE(cases.empty());
+    for (const Case& own : cases) CHECK(means("mirrors", own.id));
 }
 
 TEST_CASE("Cases are chosen by id, family and pattern", "[validation]") {

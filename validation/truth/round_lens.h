@@ -76,33 +76,33 @@ inline constexpr int lens_orders = 12;
 /// Error: that of the bisection, 1e-12 of the incidence, and the orders left out.
 inline double lens_irradiance(const RoundLens& lens, double height_m) {
     constexpr int steps = 4000;
-    constexpr double right_angle = 0.5 * std::numbers::pi;
+    const auto incidence_of = [](int step) { return 0.5 * std::numbers::pi * step / steps; };
+    // Of the ray between two steps that lands at `at_m`.
+    const auto branch = [&](int order, double low_rad, double high_rad, double at_m) {
+        const auto below = [&](double incidence_rad) {
+            return lens_ray(lens, incidence_rad, order).landing_m - at_m < 0.0;
+        };
+        const bool low_is_below = below(low_rad);
+        while (high_rad - low_rad > 1e-13) {
+            const double middle_rad = 0.5 * (low_rad + high_rad);
+            (below(middle_rad) == low_is_below ? low_rad : high_rad) = middle_rad;
+        }
+        const LensRay ray = lens_ray(lens, low_rad, order);
+        const double beam_m = lens.radius_m * std::cos(low_rad);  // dh / d incidence
+        const double spread = lens.is_ball ? lens.radius_m * std::sin(low_rad) / height_m : 1.0;
+        return ray.transmittance * spread * beam_m / std::abs(ray.slope_m);
+    };
     double sum = 0.0;
     for (int order = outer_reflection; order <= lens_orders; ++order) {
-        for (const double side : {1.0, -1.0}) {
-            const auto miss = [&](double incidence_rad, bool& lands) {
-                const LensRay ray = lens_ray(lens, incidence_rad, order);
-                lands = ray.lands;
-                return ray.landing_m - side * height_m;
-            };
-            for (int i = 0; i < steps; ++i) {
-                double low = right_angle * i / steps;
-                double high = right_angle * (i + 1) / steps;
-                bool low_lands = false;
-                bool high_lands = false;
-                const double at_low = miss(low, low_lands);
-                const double at_high = miss(high, high_lands);
-                if (!low_lands || !high_lands || (at_low < 0.0) == (at_high < 0.0)) continue;
-                while (high - low > 1e-13) {
-                    const double middle = 0.5 * (low + high);
-                    bool lands = false;
-                    ((miss(middle, lands) < 0.0) == (at_low < 0.0) ? low : high) = middle;
+        LensRay low = lens_ray(lens, 0.0, order);
+        for (int i = 0; i < steps; ++i) {
+            const LensRay high = lens_ray(lens, incidence_of(i + 1), order);
+            for (const double at_m : {height_m, -height_m}) {
+                if (low.lands && high.lands && (low.landing_m < at_m) != (high.landing_m < at_m)) {
+                    sum += branch(order, incidence_of(i), incidence_of(i + 1), at_m);
                 }
-                const LensRay ray = lens_ray(lens, low, order);
-                const double beam_m = lens.radius_m * std::cos(low);  // dh / d incidence
-                const double spread = lens.is_ball ? lens.radius_m * std::sin(low) / height_m : 1.0;
-                sum += ray.transmittance * spread * beam_m / std::abs(ray.slope_m);
             }
+            low = high;
         }
     }
     return sum;

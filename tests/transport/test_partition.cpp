@@ -91,7 +91,7 @@ TEST_CASE("The methods agree behind frosted glass and on rough metal", "[statist
         Settings settings;
         settings.method = method;
         settings.seed = 100 + static_cast<std::uint64_t>(method);
-        settings.max_phases = 12;
+        settings.max_phases = 8;
         return simulate(scene.parts, settings).quantities;
     };
     const std::vector<Quantity> referee = read(Method::path);

@@ -40,8 +40,10 @@ TEST_CASE("Schedulers agree in the mean at 1, 2, 4 and 8 threads", "[statistical
     const auto scheduler = GENERATE(Scheduler::synchronous, Scheduler::two_level);
     const auto threads = GENERATE(1, 2, 4, 8);
     INFO("scheduler " << static_cast<int>(scheduler) << " threads " << threads);
+    // The same rays, added in another order, need few seeds.
+    const bool same_rays = scheduler == Scheduler::synchronous;
     Estimate image, absorbed;  // ratios to the ordered scheduler with the same seed
-    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+    for (std::uint64_t seed = 1; seed <= (same_rays ? 3 : seeds); ++seed) {
         const Result& truth = truths[seed - 1];
         const Result result = run(scheduler, threads, seed);
         image.add(result.images[0].mean.value() / truth.images[0].mean.value());
@@ -51,7 +53,7 @@ TEST_CASE("Schedulers agree in the mean at 1, 2, 4 and 8 threads", "[statistical
         absorbed.add(lost(result) / lost(truth));
         CHECK(std::abs(result.flux_balance_lm.closure()) < 1e-6 * result.flux_balance_lm.emitted);
     }
-    if (scheduler == Scheduler::synchronous) {  // the same rays, added in another order
+    if (same_rays) {
         CHECK(std::abs(image.mean() - 1.0) < 1e-5);
         CHECK(image.standard_error() < 1e-5);
         CHECK(std::abs(absorbed.mean() - 1.0) < 1e-9);

@@ -129,7 +129,7 @@ TEST_CASE("Furnace: curved shapes by a map gathered where it is seen", "[analyti
     SECTION("cylinder") {
         SceneBuilder scene = shell(Cylinder{{0.0, 0.0, 0.0}, {0.4, 0.2, 1.0}, 0.4}, rho);
         scene.meter({0.2, 0.1, 0.5}, {0.35, 0.0, 0.0}, half_angle_rad);
-        check_furnace(scene, rho, Method::forward, {160, 6000});
+        check_furnace(scene, rho, Method::forward, {96, 6000});
     }
     SECTION("between the walls of a tube") {
         SceneBuilder scene = shell(Tube{{0.0, 0.0, 0.0}, {0.0, 0.3, 0.7}, 0.6, 0.2}, rho);
@@ -139,7 +139,7 @@ TEST_CASE("Furnace: curved shapes by a map gathered where it is seen", "[analyti
     SECTION("mesh of a sphere") {
         SceneBuilder scene = shell(MeshInstance{test::sphere_mesh(0.6, 24), turned()}, rho);
         scene.meter({0.3, 0.1, -0.1}, {0.1, 0.5, 0.3}, half_angle_rad);
-        check_furnace(scene, rho, Method::forward, {160, 6000});
+        check_furnace(scene, rho, Method::forward, {64, 6000});
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace lucerna::optics {
@@ -17,6 +18,13 @@ double sin_squared(double degrees) {
     return s * s;
 }
 
+double around_square(double x, double y) {
+    const double sum = std::abs(x) + std::abs(y);
+    if (!(sum > 0.0)) return 0.0;
+    const double above = 0.25 * (1.0 - x / sum);  // 0 at +x, 1/2 at -x
+    return y < 0.0 ? 1.0 - above : above;
+}
+
 Vec3 direction(double sin_theta, double phi) {
     return {sin_theta * std::cos(phi), sin_theta * std::sin(phi),
             std::sqrt(std::max(0.0, 1.0 - sin_theta * sin_theta))};
@@ -26,7 +34,7 @@ Vec3 direction(double sin_theta, double phi) {
 
 KlemsDirection::KlemsDirection(const Vec3& direction)
     : sin2(direction.x() * direction.x() + direction.y() * direction.y()),
-      turns(std::atan2(direction.y(), direction.x()) / (2.0 * pi)) {}
+      around(around_square(direction.x(), direction.y())) {}
 
 KlemsBasis::KlemsBasis(std::vector<Ring> rings) : rings_(std::move(rings)) {
     double upper = 0.0;
@@ -37,6 +45,12 @@ KlemsBasis::KlemsBasis(std::vector<Ring> rings) : rings_(std::move(rings)) {
         }
         first_patch_.push_back(patch_count_);
         sin2_lower_.push_back(sin_squared(upper));
+        std::vector<double>& begin = sectors_begin_.emplace_back();
+        for (int sector = 1; sector <= ring.sector_count; ++sector) {
+            const double phi = 2.0 * pi * (sector - 0.5) / ring.sector_count;
+            begin.push_back(around_square(std::cos(phi), std::sin(phi)));
+        }
+        begin.push_back(std::numeric_limits<double>::infinity());
         patch_count_ += ring.sector_count;
         upper = ring.upper_deg;
     }
@@ -70,11 +84,14 @@ KlemsBasis KlemsBasis::quarter() {
 }
 
 int KlemsBasis::patch(const KlemsDirection& d) const {
-    const auto above = std::upper_bound(sin2_lower_.begin() + 1, sin2_lower_.end() - 1, d.sin2);
-    const auto ring = static_cast<std::size_t>(above - sin2_lower_.begin()) - 1;
-    const int sectors = rings_[ring].sector_count;
-    const int sector = static_cast<int>(std::floor(d.turns * sectors + 0.5));
-    return first_patch_[ring] + (sector + sectors) % sectors;
+    std::size_t ring = 0;
+    while (ring + 1 < rings_.size() && d.sin2 >= sin2_lower_[ring + 1]) ++ring;
+    const std::vector<double>& begin = sectors_begin_[ring];
+    const auto sectors = begin.size() - 1;
+    auto sector = static_cast<std::size_t>(d.around * static_cast<double>(sectors) + 0.5);
+    while (sector > 0 && d.around < begin[sector - 1]) --sector;
+    while (d.around >= begin[sector]) ++sector;
+    return first_patch_[ring] + static_cast<int>(sector == sectors ? 0 : sector);
 }
 
 KlemsBasis::Place KlemsBasis::place(int patch) const {

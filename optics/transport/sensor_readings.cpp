@@ -121,9 +121,9 @@ std::vector<Quantity> Readings::quantities(const SceneParts& parts) const {
         const Observer& observer = parts.observers[bins.observer];
         const auto report = [&](std::string name, const char* quantity, const char* unit,
                                 std::size_t bin) {
-            const std::size_t i = bins.first_bin + bin;
-            quantities.push_back({std::move(name), quantity, unit, luminance_[i],
-                                  colour(calibration, i), result_of_sensor(calibration, i)});
+            const std::size_t at = bins.first_bin + bin;
+            quantities.push_back({std::move(name), quantity, unit, luminance_[at],
+                                  colour(calibration, at), result_of_sensor(calibration, at)});
         };
         if (const auto* points = std::get_if<IlluminancePoints>(&observer)) {
             for (std::size_t k = 0; k < bins.count; ++k) {

@@ -12,8 +12,7 @@ namespace lucerna::optics {
 namespace {
 
 constexpr std::uint32_t min_pilot_rays = 1 << 14, max_pilot_rays = 1 << 15;
-// That tell how wide the kernels of sensors may be, for the guide and, with the default accuracy,
-// for good.
+// That tell how wide the kernels of sensors may be, for the guide and for good.
 constexpr std::uint32_t rays_to_learn_widths = 1 << 16, rays_to_widen = 1 << 18;
 constexpr double default_sensor_accuracy = 0.02;  // where none is asked for
 // What the choice of the collection for images is made from.
@@ -49,7 +48,7 @@ std::uint32_t at_least_min(std::uint64_t rays) {
 
 // Kernels of caustics that sensors read; false if none does.
 bool widen_around_sensors(const TraceContext& context, const Settings& settings,
-                          const SeenPoints& seen, std::uint32_t rays_for_default, Plan& plan) {
+                          const SeenPoints& seen, std::uint32_t least_rays, Plan& plan) {
     constexpr std::size_t most_points = 16;  // of a target
     std::vector<ReadPoint> points;
     for (std::uint32_t target = 0; target < seen.target_count(); ++target) {
@@ -63,15 +62,11 @@ bool widen_around_sensors(const TraceContext& context, const Settings& settings,
         for (std::size_t i = 0; i < own.size(); i += step) points.push_back(own[i]);
     }
     if (points.empty()) return false;
+    const std::uint32_t rays = std::max(plan.caustic_rays, least_rays);
     double accuracy = settings.sensor_accuracy.value_or(default_sensor_accuracy);
     for (const SensorTarget& target : settings.sensor_targets) {
         if (target.relative > 0.0) accuracy = std::min(accuracy, target.relative);
     }
-    // A bias that may be larger is told from noise by fewer rays.
-    const double ease = std::min(1.0, square(default_sensor_accuracy / accuracy));
-    const auto rays =
-        std::max({plan.caustic_rays, rays_to_learn_widths,
-                  static_cast<std::uint32_t>(ease * static_cast<double>(rays_for_default))});
     const auto pilot = [&](std::uint32_t number) {
         const Phase phase(context.stage, settings.seed, number);
         const Emission emission(phase, RandomPurpose::caustic, plan.caustic_guide, rays);

@@ -1,8 +1,6 @@
 // Photometric files for the tests: those of tests/data/light, and text written on the spot.
 #pragma once
 
-#include <unistd.h>
-
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
@@ -10,34 +8,13 @@
 
 #include "core/diagnostics.h"
 #include "io/photometric_file.h"
+#include "tests/support/scratch_folder.h"
 
 namespace lucerna::test {
 
 inline std::filesystem::path data_file(const std::string& name) {
     return std::filesystem::path(LUCERNA_TEST_DATA) / "light" / name;
 }
-
-/// A folder for the files of one test, removed with it.
-class ScratchFolder {
-public:
-    ScratchFolder() {
-        std::string name =
-            (std::filesystem::temp_directory_path() / "lucerna_light_XXXXXX").string();
-        REQUIRE(mkdtemp(name.data()) != nullptr);
-        path_ = name;
-    }
-    ~ScratchFolder() { std::filesystem::remove_all(path_); }
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-    std::filesystem::path write(const std::string& name, const std::string& bytes) const {
-        std::ofstream(path_ / name, std::ios::binary) << bytes;
-        return path_ / name;
-    }
-
-private:
-    std::filesystem::path path_;
-};
 
 inline PhotometricFile read_text(const std::string& name, const std::string& bytes,
                                  int lamp_set = 1) {

@@ -1,8 +1,6 @@
 // Scenes from text, and the complaints that they cause.
 #pragma once
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
@@ -13,34 +11,11 @@
 
 #include "core/diagnostics.h"
 #include "io/scene_file.h"
+#include "tests/support/scratch_folder.h"
 
 namespace lucerna::io {
 
-/// A folder for one test, removed at its end.
-class ScratchFolder {
-public:
-    ScratchFolder() {
-        std::string name =
-            (std::filesystem::temp_directory_path() / "lucerna-scene-XXXXXX").string();
-        REQUIRE(mkdtemp(name.data()) != nullptr);
-        path_ = name;
-    }
-    ~ScratchFolder() {
-        std::error_code ignored;
-        std::filesystem::remove_all(path_, ignored);
-    }
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-    const std::filesystem::path& path() const { return path_; }
-    std::filesystem::path write(const std::string& name, const std::string& text) const {
-        std::ofstream(path_ / name, std::ios::binary) << text;
-        return path_ / name;
-    }
-
-private:
-    std::filesystem::path path_;
-};
+using test::ScratchFolder;
 
 /// The text with the only occurrence of `from` replaced.
 inline std::string replaced(std::string text, const std::string& from, const std::string& to) {

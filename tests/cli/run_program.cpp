@@ -12,7 +12,7 @@ namespace lucerna::cli {
 namespace {
 
 Outcome run(const std::vector<std::string>& arguments, bool interrupt) {
-    const io::TestFolder folder;
+    const io::ScratchFolder folder;
     const auto out = folder / "out";
     const auto err = folder / "err";
     std::vector<char*> argv = {const_cast<char*>("lucerna")};

@@ -9,7 +9,7 @@
 using namespace lucerna;
 using namespace lucerna::cli;
 using Catch::Contains;
-using io::TestFolder;
+using io::ScratchFolder;
 using nlohmann::json;
 
 namespace {
@@ -59,7 +59,7 @@ bool is_rate(const json& rate, std::size_t columns) {
 }  // namespace
 
 TEST_CASE("A benchmark says on the terminal what was measured", "[cli]") {
-    TestFolder folder;
+    ScratchFolder folder;
     io::write_file(folder / "ball.yaml", scene_seen_by(camera));
     const Outcome outcome =
         run_program(quick({folder / "ball.yaml", "--threads", "1,2", "--phases", "2"}));
@@ -106,7 +106,7 @@ TEST_CASE("A benchmark says on the terminal what was measured", "[cli]") {
 }
 
 TEST_CASE("A benchmark leaves all of its numbers as JSON", "[cli]") {
-    TestFolder folder;
+    ScratchFolder folder;
     io::write_file(folder / "ball.yaml", scene_seen_by(camera));
     io::write_file(folder / "point.yaml", scene_seen_by(sensor));
     const Outcome outcome =
@@ -170,7 +170,7 @@ TEST_CASE("A benchmark leaves all of its numbers as JSON", "[cli]") {
 }
 
 TEST_CASE("A benchmark until a noise says whether that was reached", "[cli]") {
-    TestFolder folder;
+    ScratchFolder folder;
     io::write_file(folder / "ball.yaml", scene_seen_by(camera));
     const auto measure = [&](const std::vector<std::string>& options) {
         std::vector<std::string> arguments{folder / "ball.yaml", "-o", folder / "bench.json"};
@@ -204,7 +204,7 @@ TEST_CASE("A benchmark until a noise says whether that was reached", "[cli]") {
 }
 
 TEST_CASE("A benchmark compares all schedulers", "[cli]") {
-    TestFolder folder;
+    ScratchFolder folder;
     io::write_file(folder / "ball.yaml", scene_seen_by(camera));
     const Outcome outcome = run_program(quick(
         {folder / "ball.yaml", "--scheduler", "ordered,synchronous,asynchronous,two-level",
@@ -220,7 +220,7 @@ TEST_CASE("A benchmark compares all schedulers", "[cli]") {
 }
 
 TEST_CASE("What a benchmark cannot do is refused before it starts", "[cli]") {
-    TestFolder folder;
+    ScratchFolder folder;
     io::write_file(folder / "ball.yaml", scene_seen_by(camera));
     io::write_file(folder / "point.yaml", scene_seen_by(sensor));
     const std::string ball = folder / "ball.yaml";

@@ -7,7 +7,7 @@
 using namespace lucerna;
 using namespace lucerna::cli;
 using Catch::Contains;
-using io::TestFolder;
+using io::ScratchFolder;
 
 TEST_CASE("Bad options end with code 2 and say what is wrong", "[cli]") {
     const auto [arguments, message] = GENERATE(table<std::vector<std::string>, std::string>({
@@ -33,7 +33,7 @@ TEST_CASE("Bad options end with code 2 and say what is wrong", "[cli]") {
 }
 
 TEST_CASE("Bad input ends with code 2 and names its place", "[cli]") {
-    TestFolder folder;
+    ScratchFolder folder;
     const std::string scene = folder / "room.yaml";
     io::write_file(scene, "lucerna: 1\nmaterials:\n  wall: {type: difuse, reflectance: 0.5}\n");
     for (const char* command : {"run", "check"}) {

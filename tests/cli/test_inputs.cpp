@@ -12,7 +12,7 @@ using Catch::Contains;
 using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;
 using io::read_text;
-using io::TestFolder;
+using io::ScratchFolder;
 using nlohmann::json;
 
 namespace {
@@ -36,7 +36,7 @@ sensors:
 }
 
 struct SphereRuns {
-    TestFolder folder;
+    ScratchFolder folder;
     std::string scene = folder / "sphere.yaml";
 
     Outcome run(const std::string& text, std::vector<std::string> options = {"--phases", "40"}) {

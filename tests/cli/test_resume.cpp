@@ -11,7 +11,7 @@ using namespace lucerna::cli;
 using Catch::Contains;
 using Catch::Matchers::WithinRel;
 using io::read_text;
-using io::TestFolder;
+using io::ScratchFolder;
 using nlohmann::json;
 
 namespace {
@@ -36,7 +36,7 @@ sensors:
 )";
 
 struct Runs {
-    TestFolder folder;
+    ScratchFolder folder;
     std::string scene = folder / "ball.yaml";
 
     Runs() { io::write_file(scene, ball_on_a_table); }

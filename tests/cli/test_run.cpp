@@ -9,7 +9,7 @@
 using namespace lucerna;
 using namespace lucerna::cli;
 using Catch::Contains;
-using io::TestFolder;
+using io::ScratchFolder;
 using nlohmann::json;
 
 namespace {
@@ -38,7 +38,7 @@ std::string small_scene() {
 }  // namespace
 
 TEST_CASE("The scene of the README gives the illuminance that it promises", "[cli][analytic]") {
-    TestFolder folder;
+    ScratchFolder folder;
     io::write_file(folder / "table.yaml", small_scene());
     const Outcome outcome = run_program({"run", folder / "table.yaml", "--phases", "64"});
     CAPTURE(outcome.err);
@@ -59,7 +59,7 @@ TEST_CASE("The scene of the README gives the illuminance that it promises", "[cl
 }
 
 TEST_CASE("A run leaves its files and says so", "[cli]") {
-    TestFolder folder;
+    ScratchFolder folder;
     io::write_file(folder / "table.yaml", small_scene());
     const Outcome outcome = run_program(
         {"run", folder / "table.yaml", "-o", folder / "a/b", "--phases", "2", "--spectral", "5"});
@@ -75,7 +75,7 @@ TEST_CASE("A run leaves its files and says so", "[cli]") {
 }
 
 TEST_CASE("The exit code says whether the accuracy was reached", "[cli]") {
-    TestFolder folder;
+    ScratchFolder folder;
     io::write_file(folder / "table.yaml", small_scene());
     const Outcome hopeless =
         run_program({"run", folder / "table.yaml", "--phases", "2", "--accuracy", "0.0001%"});
@@ -90,7 +90,7 @@ TEST_CASE("The exit code says whether the accuracy was reached", "[cli]") {
 }
 
 TEST_CASE("Options of the command line override the file", "[cli]") {
-    TestFolder folder;
+    ScratchFolder folder;
     io::write_file(folder / "table.yaml", small_scene());
     const Outcome outcome =
         run_program({"run", folder / "table.yaml", "--phases", "2", "--seed",
@@ -104,7 +104,7 @@ TEST_CASE("Options of the command line override the file", "[cli]") {
 }
 
 TEST_CASE("The images of a seed are the same bytes for any number of threads", "[cli]") {
-    TestFolder folder;
+    ScratchFolder folder;
     io::write_file(folder / "table.yaml", small_scene());
     const auto image = [&](const std::string& seed, const std::string& threads) {
         const std::string results = folder / ("results-" + seed + "-" + threads);
@@ -119,7 +119,7 @@ TEST_CASE("The images of a seed are the same bytes for any number of threads", "
 }
 
 TEST_CASE("Ctrl-C finishes the phase and writes what there is", "[cli]") {
-    TestFolder folder;
+    ScratchFolder folder;
     io::write_file(folder / "table.yaml", small_scene());
     const Outcome outcome = run_program_and_interrupt(
         {"run", folder / "table.yaml", "--accuracy", "0.0001%", "--time", "120s"});
@@ -131,7 +131,7 @@ TEST_CASE("Ctrl-C finishes the phase and writes what there is", "[cli]") {
 }
 
 TEST_CASE("A folder that cannot be made is refused before the run", "[cli]") {
-    TestFolder folder;
+    ScratchFolder folder;
     io::write_file(folder / "table.yaml", small_scene());
     io::write_file(folder / "file", "");
     const Outcome outcome =

@@ -1,5 +1,3 @@
-#include <unistd.h>
-
 #include <bit>
 #include <catch2/catch.hpp>
 #include <filesystem>
@@ -10,6 +8,7 @@
 #include "core/random.h"
 #include "io/mesh_file.h"
 #include "optics/geometry/mesh_check.h"
+#include "tests/support/scratch_folder.h"
 
 namespace lucerna::io {
 
@@ -20,31 +19,16 @@ using Catch::Matchers::WithinRel;
 
 const std::filesystem::path data = LUCERNA_TEST_DATA "/geometry";
 
-/// A file that is gone after the test.
-class TemporaryFile {
-public:
-    TemporaryFile(const std::string& name, const std::string& bytes)
-        : path_(std::filesystem::temp_directory_path() /
-                ("lucerna-" + std::to_string(::getpid()) + name)) {
-        std::ofstream(path_, std::ios::binary) << bytes;
-    }
-    ~TemporaryFile() { std::filesystem::remove(path_); }
-    const std::filesystem::path& path() const { return path_; }
-
-private:
-    std::filesystem::path path_;
-};
-
 MeshFile read(const std::string& name, const std::string& bytes, double unit_m = 1.0) {
-    const TemporaryFile file(name, bytes);
-    return read_mesh_file(file.path(), unit_m);
+    const test::ScratchFolder folder;
+    return read_mesh_file(folder.write(name, bytes), unit_m);
 }
 
 /// All complaints about the file, one per line, without the folder.
 std::string complaints(const std::string& name, const std::string& bytes) {
-    const TemporaryFile file(name, bytes);
+    const test::ScratchFolder folder;
     try {
-        read_mesh_file(file.path(), 1.0);
+        read_mesh_file(folder.write(name, bytes), 1.0);
     } catch (const InputError& error) {
         std::string text;
         for (const Diagnostic& diagnostic : error.diagnostics()) {

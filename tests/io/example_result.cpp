@@ -1,23 +1,9 @@
 #include "tests/io/example_result.h"
 
-#include <unistd.h>
-
-#include <atomic>
 #include <fstream>
 #include <iterator>
 
 namespace lucerna::io {
-
-TestFolder::TestFolder() {
-    static std::atomic<int> count = 0;
-    path_ = std::filesystem::temp_directory_path() /
-            fmt::format("lucerna-test-{}-{}", ::getpid(), count++);
-    std::filesystem::create_directories(path_);
-}
-
-TestFolder::~TestFolder() {
-    std::filesystem::remove_all(path_);
-}
 
 Estimate estimate(double mean, double standard_error, double bias) {
     Estimate result;

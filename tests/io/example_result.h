@@ -5,20 +5,11 @@
 #include <string>
 
 #include "optics/transport/result.h"
+#include "tests/support/scratch_folder.h"
 
 namespace lucerna::io {
 
-/// A folder of its own for a test, removed at its end.
-class TestFolder {
-public:
-    TestFolder();
-    ~TestFolder();
-    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-    const std::filesystem::path& path() const { return path_; }
-
-private:
-    std::filesystem::path path_;
-};
+using test::ScratchFolder;
 
 /// Estimate of two phases with this mean and standard error: mean -+ error has the deviation of the
 /// mean sqrt(2 error^2 / (2 * 1)) = error.

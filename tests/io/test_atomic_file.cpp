@@ -13,7 +13,7 @@ using namespace lucerna::io;
 
 namespace {
 
-std::size_t files_in(const TestFolder& folder) {
+std::size_t files_in(const ScratchFolder& folder) {
     const std::filesystem::directory_iterator files(folder.path());
     return static_cast<std::size_t>(std::distance(begin(files), end(files)));
 }
@@ -34,7 +34,7 @@ int in_child(Work work) {
 }  // namespace
 
 TEST_CASE("A file appears under its name at the commit, and only then", "[unit]") {
-    TestFolder folder;
+    ScratchFolder folder;
     const auto path = folder / "report.json";
     write_file(path, "old");
     {
@@ -51,7 +51,7 @@ TEST_CASE("A file appears under its name at the commit, and only then", "[unit]"
 }
 
 TEST_CASE("A file that is given up leaves nothing behind", "[unit]") {
-    TestFolder folder;
+    ScratchFolder folder;
     const auto path = folder / "image.exr";
     write_file(path, "old");
     { AtomicFile(path).write("half", 4); }
@@ -60,7 +60,7 @@ TEST_CASE("A file that is given up leaves nothing behind", "[unit]") {
 }
 
 TEST_CASE("A full disk is an error that names the file and keeps the old one", "[unit]") {
-    TestFolder folder;
+    ScratchFolder folder;
     const auto path = folder / "image.exr";
     write_file(path, "old");
     const int status = in_child([&] {
@@ -81,7 +81,7 @@ TEST_CASE("A full disk is an error that names the file and keeps the old one", "
 }
 
 TEST_CASE("A failure that a library swallows is still known at the commit", "[unit]") {
-    TestFolder folder;
+    ScratchFolder folder;
     const auto path = folder / "image.exr";
     const int status = in_child([&] {
         std::signal(SIGXFSZ, SIG_IGN);
@@ -105,7 +105,7 @@ TEST_CASE("A failure that a library swallows is still known at the commit", "[un
 }
 
 TEST_CASE("A killed run leaves the old file under its name", "[unit]") {
-    TestFolder folder;
+    ScratchFolder folder;
     const auto path = folder / "image.exr";
     write_file(path, "old");
     const int status = in_child([&] {
@@ -118,7 +118,7 @@ TEST_CASE("A killed run leaves the old file under its name", "[unit]") {
 }
 
 TEST_CASE("A folder that does not exist is an error that names the file", "[unit]") {
-    TestFolder folder;
+    ScratchFolder folder;
     CHECK_THROWS_WITH(write_file(folder / "none/report.json", "x"),
                       Catch::Contains("none/report.json"));
 }

@@ -21,7 +21,7 @@ TEST_CASE("SHA-256 gives the published digests", "[unit][hash]") {
 
 TEST_CASE("The hash of a scene follows the contents and the order of its files, not their names",
           "[unit][hash]") {
-    TestFolder folder;
+    ScratchFolder folder;
     write_file(folder / "scene.yaml", "abc");
     write_file(folder / "lamp.ies", "");
     write_file(folder / "renamed.yaml", "abc");

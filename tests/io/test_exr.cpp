@@ -52,7 +52,7 @@ constexpr double float_rounding = 6e-8;
 }  // namespace
 
 TEST_CASE("An image carries luminance, error and bias with its provenance", "[unit][exr]") {
-    TestFolder folder;
+    ScratchFolder folder;
     const auto path = folder / "view.exr";
     const optics::Image image = example_image();
     write_exr(path, image, provenance);
@@ -78,7 +78,7 @@ TEST_CASE("An image carries luminance, error and bias with its provenance", "[un
 }
 
 TEST_CASE("White of D65 has R = G = B = its luminance", "[unit][exr]") {
-    TestFolder folder;
+    ScratchFolder folder;
     const auto path = folder / "view.exr";
     write_exr(path, example_image(), provenance);
     const auto luminance = channel(path, "luminance.Y");
@@ -91,7 +91,7 @@ TEST_CASE("White of D65 has R = G = B = its luminance", "[unit][exr]") {
 }
 
 TEST_CASE("RGB of the equal-energy white is that of BT.709", "[unit][exr]") {
-    TestFolder folder;
+    ScratchFolder folder;
     optics::Image image = example_image();
     for (std::size_t i = 0; i < image.luminance.size(); ++i) {
         image.x[i] = image.z[i] = static_cast<float>(image.luminance[i].mean());
@@ -106,7 +106,7 @@ TEST_CASE("RGB of the equal-energy white is that of BT.709", "[unit][exr]") {
 }
 
 TEST_CASE("Spectral images follow the layout of Fichet et al.", "[unit][exr]") {
-    TestFolder folder;
+    ScratchFolder folder;
     const auto path = folder / "view.spectral.exr";
     const optics::Image image = example_image();
     write_spectral_exr(path, image, provenance);
@@ -138,7 +138,7 @@ TEST_CASE("Spectral images follow the layout of Fichet et al.", "[unit][exr]") {
 }
 
 TEST_CASE("An image without spectra is not written as a spectral one", "[unit][exr]") {
-    TestFolder folder;
+    ScratchFolder folder;
     optics::Image image = example_image();
     image.bin_edges_nm.clear();
     CHECK_THROWS_AS(write_spectral_exr(folder / "x.exr", image, provenance), std::invalid_argument);
@@ -146,7 +146,7 @@ TEST_CASE("An image without spectra is not written as a spectral one", "[unit][e
 }
 
 TEST_CASE("What is written reads back, with its error", "[unit][exr]") {
-    TestFolder folder;
+    ScratchFolder folder;
     const optics::Image image = example_image();
     write_exr(folder / "view.exr", image, provenance);
     const LuminanceImage read = read_image(folder / "view.exr");
@@ -160,7 +160,7 @@ TEST_CASE("What is written reads back, with its error", "[unit][exr]") {
 }
 
 TEST_CASE("Plain colour images read as luminance, scaled by whiteLuminance", "[unit][exr]") {
-    TestFolder folder;
+    ScratchFolder folder;
     const auto path = folder / "rgb.exr";
     const bool scaled = GENERATE(false, true);
     Imf::Header header(2, 1);
@@ -187,7 +187,7 @@ TEST_CASE("Plain colour images read as luminance, scaled by whiteLuminance", "[u
 }
 
 TEST_CASE("Files that are no images are refused with their name", "[unit][exr]") {
-    TestFolder folder;
+    ScratchFolder folder;
     write_file(folder / "text.exr", "not an image at all");
     CHECK_THROWS_AS(read_image(folder / "text.exr"), InputError);
     CHECK_THROWS_WITH(read_image(folder / "none.exr"), Catch::Contains("none.exr"));
@@ -200,7 +200,7 @@ TEST_CASE("Files that are no images are refused with their name", "[unit][exr]")
 }
 
 TEST_CASE("Undefined luminance is refused with its pixel", "[unit][exr]") {
-    TestFolder folder;
+    ScratchFolder folder;
     optics::Image image = example_image();
     image.luminance[25] = estimate(std::numeric_limits<double>::quiet_NaN(), 1.0);
     write_exr(folder / "view.exr", image, provenance);

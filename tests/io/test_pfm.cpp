@@ -26,7 +26,7 @@ std::string floats(const std::vector<float>& values, bool little_endian) {
 }  // namespace
 
 TEST_CASE("PFM rows run upwards, in either byte order, times the scale", "[unit][pfm]") {
-    TestFolder folder;
+    ScratchFolder folder;
     const bool little = GENERATE(true, false);
     write_file(folder / "a.pfm", (little ? "Pf\n2 3\n-2.0\n" : "Pf\n2 3\n2.0\n") +
                                      floats({1, 2, 3, 4, 5, 6}, little));
@@ -38,14 +38,14 @@ TEST_CASE("PFM rows run upwards, in either byte order, times the scale", "[unit]
 }
 
 TEST_CASE("Colour PFM is weighted to luminance", "[unit][pfm]") {
-    TestFolder folder;
+    ScratchFolder folder;
     write_file(folder / "a.pfm", "PF 1 1 -1\n" + floats({1, 10, 100}, true));
     // BT.709-6 item 3.2 to four decimals: 0.2126 + 7.152 + 7.22
     CHECK_THAT(read_image(folder / "a.pfm").luminance[0], WithinAbs(14.5846, 0.006));
 }
 
 TEST_CASE("Damaged PFM files are refused", "[unit][pfm]") {
-    TestFolder folder;
+    ScratchFolder folder;
     const std::string one = floats({1}, true);
     const std::string bytes = GENERATE_COPY(values<std::string>(
         {"Pf\n2 2\n-1\n" + one, "Pf\n0 1\n-1\n", "Pf\n-1 -1\n-1\n" + one, "Pf\n1 1\n0\n" + one,

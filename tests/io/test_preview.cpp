@@ -107,7 +107,7 @@ TEST_CASE("A false-colour image spans its luminances and has a legend", "[unit][
 }
 
 TEST_CASE("A PNG reads back with the same pixels", "[unit][preview]") {
-    TestFolder folder;
+    ScratchFolder folder;
     Raster raster(5, 3, {1, 2, 3});
     raster.at(4, 0) = {250, 128, 7};
     write_png(folder / "a.png", raster);

@@ -36,7 +36,7 @@ TEST_CASE("Daylight through a pane and past an overhang agrees with its truth", 
 }
 
 TEST_CASE("validate runs a case and writes table, data and page", "[validation]") {
-    const io::TestFolder folder;
+    const io::ScratchFolder folder;
     const std::string results = folder / "results";
     const auto outcome = run_program({"validate", "cie171/5.2-height-3", "--seeds", "2", "--seed",
                                       "5", "--threads", "1", "-o", results});

@@ -47,6 +47,17 @@ std::optional<BsdfSample> sample(const Bsdf& bsdf, const SurfaceOptics& at, cons
     return event;
 }
 
+double reflection_probability(const Bsdf& bsdf, const SurfaceOptics& at, const Vec3& wo,
+                              Transport transport) {
+    if (const auto* diffuse = std::get_if<Diffuse>(&bsdf)) {
+        return reflection_probability(*diffuse, at);
+    }
+    if (const auto* measured = std::get_if<Measured>(&bsdf)) {
+        return reflection_probability(*measured, wo, transport);
+    }
+    return 1.0;
+}
+
 namespace {
 
 template <typename Predicate>

@@ -130,6 +130,11 @@ double pdf_solid_angle(const Bsdf& bsdf, const SurfaceOptics& at, const Vec3& wo
 std::optional<BsdfSample> sample(const Bsdf& bsdf, const SurfaceOptics& at, const Vec3& wo,
                                  double u_lobe, double u1, double u2, Transport transport);
 
+/// Where sample() chooses between reflection and transmission by u_lobe alone, the probability of
+/// reflection, which the u_lobe below it stand for; 1 where it does not, or there is one side only.
+double reflection_probability(const Bsdf& bsdf, const SurfaceOptics& at, const Vec3& wo,
+                              Transport transport);
+
 /// Whether the BSDF has lobes of the kind at all (for the scene's maps and light choice).
 bool has_specular_lobe(const Bsdf& bsdf, const std::vector<Bsdf>& bsdfs);
 bool has_scattering_lobe(const Bsdf& bsdf, const std::vector<Bsdf>& bsdfs);

@@ -36,6 +36,12 @@ double pdf_solid_angle(const Diffuse& diffuse, const SurfaceOptics& at, const Ve
     return (same_side(wo, wi) ? p_reflect : 1.0 - p_reflect) * std::abs(wi.z()) / pi;
 }
 
+double reflection_probability(const Diffuse& diffuse, const SurfaceOptics& at) {
+    double albedo;
+    const double p_reflect = reflection_probability(diffuse, at, albedo);
+    return albedo > 0.0 ? p_reflect : 1.0;
+}
+
 std::optional<BsdfSample> sample(const Diffuse& diffuse, const SurfaceOptics& at, const Vec3& wo,
                                  const EventNumbers& u, Transport) {
     double albedo;

@@ -154,6 +154,11 @@ std::optional<Vec3> KlemsBsdf::sample(const Vec3& known, double u_lobe, double u
     return sampled ? std::optional(sampled->direction) : std::nullopt;
 }
 
+double KlemsBsdf::reflection_probability(const Vec3& known, Transport transport) const {
+    const Lobes lobes(parts_, known, transport);
+    return lobes.total() > 0.0 ? lobes.reflection.total / lobes.total() : 1.0;
+}
+
 double KlemsBsdf::pdf_solid_angle(const Vec3& known, const Vec3& sampled,
                                   Transport transport) const {
     const Lobes lobes(parts_, known, transport);

@@ -73,6 +73,9 @@ public:
     /// f |cos|; nothing if f is 0 there.
     std::optional<Vec3> sample(const Vec3& known, double u_lobe, double u1, double u2,
                                Transport transport) const;
+    /// Probability that sample() keeps to the side of `known`, with u_lobe below it; 1 where f is
+    /// 0.
+    double reflection_probability(const Vec3& known, Transport transport) const;
     double pdf_solid_angle(const Vec3& known, const Vec3& sampled, Transport transport) const;
     /// The same three at once: the patches of both ends are looked for only once.
     struct Sample {

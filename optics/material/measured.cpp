@@ -21,6 +21,11 @@ double pdf_solid_angle(const Measured& measured, const SurfaceOptics&, const Vec
                       measured.data->data);
 }
 
+double reflection_probability(const Measured& measured, const Vec3& wo, Transport transport) {
+    return std::visit([&](const auto& data) { return data.reflection_probability(wo, transport); },
+                      measured.data->data);
+}
+
 std::optional<BsdfSample> sample(const Measured& measured, const SurfaceOptics& at, const Vec3& wo,
                                  const EventNumbers& u, Transport transport) {
     BsdfSample event;
@@ -46,6 +51,28 @@ std::optional<BsdfSample> sample(const Measured& measured, const SurfaceOptics& 
 
 bool is_isotropic(const MeasuredBsdf& measured) {
     return std::holds_alternative<TabulatedBsdf>(measured.data);
+}
+
+double concentration(const MeasuredBsdf& measured, const Vec3& wo, bool reflection,
+                     const spectral::WavelengthSet& wavelengths) {
+    // Midpoints of cells of equal projected solid angle, as large as the least of Klems patches.
+    constexpr int rings = 128, sectors = 96;
+    const bool above = (side_of(wo) == Side::front) == reflection;
+    double sum = 0.0, squares = 0.0;
+    for (int ring = 0; ring < rings; ++ring) {
+        const double sin2 = (ring + 0.5) / rings, cos_theta = std::sqrt(1.0 - sin2);
+        for (int sector = 0; sector < sectors; ++sector) {
+            const double phi = 2.0 * pi * (sector + 0.5) / sectors;
+            const Vec3 wi(std::sqrt(sin2) * std::cos(phi), std::sqrt(sin2) * std::sin(phi),
+                          above ? cos_theta : -cos_theta);
+            const Lanes f =
+                std::visit([&](const auto& data) { return data.bsdf_per_sr(wi, wo, wavelengths); },
+                           measured.data);
+            sum += static_cast<double>(f.mean());
+            squares += square(static_cast<double>(f.mean()));
+        }
+    }
+    return sum > 0.0 ? squares * rings * sectors / square(sum) : 0.0;
 }
 
 bool transmits(const MeasuredBsdf& measured) {

@@ -26,6 +26,13 @@ struct MeasuredBsdf {
 /// the surface needs to be known.
 bool is_isotropic(const MeasuredBsdf& measured);
 
+/// From how few directions comes what is scattered toward wo: pi times the integral of f^2 |cos|
+/// over the square of that of f |cos|, over the side of wo (`reflection`) or the other; 1 where f
+/// is constant, 0 where it is 0. A mean over photons that arrive from all around has the noise of
+/// as many times fewer photons than at a Lambertian surface.
+double concentration(const MeasuredBsdf& measured, const Vec3& wo, bool reflection,
+                     const spectral::WavelengthSet& wavelengths);
+
 /// True if the data let light pass in at least one direction.
 bool transmits(const MeasuredBsdf& measured);
 

@@ -53,6 +53,10 @@ double pdf_solid_angle(const Mixture&, const SurfaceOptics&, const Vec3& wo, con
 std::optional<BsdfSample> sample(const Mixture&, const SurfaceOptics&, const Vec3& wo,
                                  const EventNumbers&, Transport);
 
+// Models that choose the side first: see reflection_probability() of bsdf.h.
+double reflection_probability(const Diffuse&, const SurfaceOptics&);
+double reflection_probability(const Measured&, const Vec3& wo, Transport);
+
 // Models with specular lobes only.
 std::optional<BsdfSample> sample(const Mirror&, const SurfaceOptics&, const Vec3& wo,
                                  const EventNumbers&, Transport);

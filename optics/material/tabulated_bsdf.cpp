@@ -321,6 +321,13 @@ std::optional<Vec3> TabulatedBsdf::sample(const Vec3& known, double u_lobe, doub
     return Vec3(sin_theta * std::cos(phi), sin_theta * std::sin(phi), up ? cos_theta : -cos_theta);
 }
 
+double TabulatedBsdf::reflection_probability(const Vec3& known, Transport transport) const {
+    const Lobes lobes(parts_, known, transport);
+    const double reflected = lobes.total(lobes.reflection);
+    const double total = reflected + lobes.total(lobes.transmission);
+    return total > 0.0 ? reflected / total : 1.0;
+}
+
 double TabulatedBsdf::pdf_solid_angle(const Vec3& known, const Vec3& sampled,
                                       Transport transport) const {
     const Lobes lobes(parts_, known, transport);

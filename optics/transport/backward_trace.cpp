@@ -72,30 +72,40 @@ public:
     }
 
 private:
+    // A backward ray, or one of its branches, and how it has come this far.
+    struct Way {
+        Path path;
+        double importance = 1.0;  // share of the ray's weight that its branches left to it
+        int scatterings = 0;
+        int counted = 0;  // of them, those that do not just pass the path on: v of Collection
+        bool lit = true;  // direct light was sampled at the last scattering event
+        bool specular_since = false;  // the last scattering event
+        bool straight = true;         // no event yet: all rays of the bin come this way
+        Vec3 scattered_from = Vec3::Zero();
+        double scattered_pdf = 0.0;
+    };
+
     void trace(const ObserverBins& bins, std::size_t bin, std::uint32_t sample,
                StratifiedStream& random) {
-        scatterings_ = counted_ = 0;
-        specular_since_ = false;
-        straight_ = true;
-        path_.start.object = no_object;
-        path_.media = media_of_observer_;
-        path_.weight = Lanes::Constant(1.0f / static_cast<float>(rays_.count));
-        path_.hero_only = false;
+        way_.scatterings = way_.counted = 0;
+        way_.specular_since = false;
+        way_.straight = true;
+        way_.path.start.object = no_object;
+        way_.path.media = media_of_observer_;
+        way_.path.weight = Lanes::Constant(1.0f / static_cast<float>(rays_.count));
+        way_.path.hero_only = false;
         // Even over the rays of a bin, so that their mean has hardly any noise of wavelengths.
-        path_.hero = phase_.stage.disperses() ? choose_common_hero(phase_, random.pair()[0]) : 0;
-        path_.lossless_events = 0;
-        path_.polarisation.depolarise();
-        importance_ = 1.0;
+        way_.path.hero =
+            phase_.stage.disperses() ? choose_common_hero(phase_, random.pair()[0]) : 0;
+        way_.path.lossless_events = 0;
+        way_.path.polarisation.depolarise();
+        way_.importance = 1.0;
         if (!leave_observer(bins, bin, sample, random)) return;
         while (true) {
             while (next_event(random)) {
             }
             if (branches_.empty()) return;
-            path_ = branches_.back().path;
-            importance_ = branches_.back().importance;
-            scatterings_ = counted_ = 0;
-            specular_since_ = true;
-            straight_ = false;
+            way_ = branches_.back();
             branches_.pop_back();
         }
     }
@@ -107,12 +117,13 @@ private:
         const auto [u1, u2] = random.pair();
         if (const auto* camera = std::get_if<Camera>(&observer)) {
             const auto width = static_cast<std::size_t>(camera->width);
-            path_.ray = camera_rays_->through(static_cast<double>(bin % width) + u1,
-                                              static_cast<double>(bin / width) + u2);
+            way_.path.ray = camera_rays_->through(static_cast<double>(bin % width) + u1,
+                                                  static_cast<double>(bin / width) + u2);
         } else if (const auto* meter = std::get_if<LuminanceMeter>(&observer)) {
             const Frame frame(meter->direction);
-            path_.ray = {meter->position, frame.to_world(sample_cone(
-                                              std::cos(meter->acceptance_half_angle_rad), u1, u2))};
+            way_.path.ray = {
+                meter->position,
+                frame.to_world(sample_cone(std::cos(meter->acceptance_half_angle_rad), u1, u2))};
         } else {
             const auto& points = std::get<IlluminancePoints>(observer);
             // All samples of a point gather the same photons: the first does it for all.
@@ -153,26 +164,27 @@ private:
     // Weights of direct light keep to the density of the cosine: any weights that add up to one
     // for a direction leave the sum unbiased.
     void scatter_to_arrivals(double& u1, double& u2) {
-        path_.weight *= static_cast<float>(rays_.arrivals->density.warp(u1, u2));
+        way_.path.weight *= static_cast<float>(rays_.arrivals->density.warp(u1, u2));
     }
 
     bool leave_sensor(const IlluminancePoints& points, const SensorPlanes::Point& sensor, double u1,
                       double u2, StratifiedStream& random) {
         const Vec3& position = sensor.position;
-        path_.weight *= static_cast<float>(pi);
+        way_.path.weight *= static_cast<float>(pi);
         LightSamples samples = LightSamples::weighed;
         at_sensor(points, sensor, [&](const GatherPoint& at) {
             samples = samples_of_lights(at);
             readings_.add(
                 phase_, bin_,
-                path_.weight * direct_light(phase_, at, nullptr, path_.media, path_.media, samples,
-                                            ShadowRays::of_all, random, tally_.shadow_segments));
+                way_.path.weight * direct_light(phase_, at, nullptr, way_.path.media,
+                                                way_.path.media, samples, 1.0, ShadowRays::of_all,
+                                                random, tally_.shadow_segments));
         });
         if (samples == LightSamples::alone) return false;
         if (rays_.arrivals) scatter_to_arrivals(u1, u2);
         const Vec3 wi = sample_cosine_hemisphere(u1, u2);
-        path_.ray = {position, Frame(points.normal).to_world(wi)};
-        ++counted_;
+        way_.path.ray = {position, Frame(points.normal).to_world(wi)};
+        ++way_.counted;
         scattered_at(position, wi.z() / pi, true);
         return true;
     }
@@ -180,85 +192,132 @@ private:
     // Follows the path to the next surface and through its event; false when the path has ended.
     bool next_event(StratifiedStream& random) {
         const Stage& stage = phase_.stage;
-        const auto encounter = next_encounter(phase_, path_);
+        const auto encounter = next_encounter(phase_, way_.path);
         ++tally_.segments;
         if (!encounter) return false;
-        path_.weight *= encounter->transmittance;
+        way_.path.weight *= encounter->transmittance;
         add_emission(*encounter);
         if (!encounter->consistent) return false;
         if (encounter->bsdf == pass_through) {
-            pass(path_, *encounter);
+            pass(way_.path, *encounter);
             return true;
         }
-        const bool collected = counted_ > 0 && !collection_.whole_path;
-        if (collected && (counted_ > 1 || !goes_on_from_first())) return false;
+        const bool collected = way_.counted > 0 && !collection_.whole_path;
+        if (collected && (way_.counted > 1 || !goes_on_from_first())) return false;
 
         const Bsdf& bsdf = stage.parts().bsdfs[encounter->bsdf];
-        const SurfaceOptics optics = optics_at(phase_, *encounter, path_);
-        const bool passes_on = stage.is_glossy(encounter->bsdf) &&
-                               (counted_ > 0 || !collection_.reaches_second_event());
+        const SurfaceOptics optics = optics_at(phase_, *encounter, way_.path);
+        const bool above = encounter->wo.z() > 0.0;
+        const Glossy passes_on = passes_on_at(*encounter);
         const bool lit = !collected || collection_.second_direct;
+        const bool branches =
+            way_.scatterings == 0 && way_.importance >= least_importance_to_branch;
+        const Event event{*encounter, bsdf, optics, passes_on, lit, collected};
+        double reflected = 1.0;
         if (stage.scatters(encounter->bsdf)) {
-            const GatherPoint at{encounter->point, encounter->frame, encounter->wo, bsdf, optics};
-            const std::uint8_t here = passes_on ? ~mask(History::indirect) : ~0;
-            if (counted_ == 0) {
+            GatherPoint at{encounter->point, encounter->frame, encounter->wo, bsdf, optics};
+            at.from_above = !(above ? passes_on.reflection : passes_on.transmission);
+            at.from_below = !(above ? passes_on.transmission : passes_on.reflection);
+            const std::uint8_t here =
+                at.from_above || at.from_below ? ~0 : ~mask(History::indirect);
+            if (way_.counted == 0) {
                 gather_where_seen(at, collection_.first_gather & here);
                 store(*encounter, collection_.first_deposit & here);
             } else if (collected) {
                 store(*encounter, collection_.second_deposit & here);
             }
-            if (lit && add_direct_light(*encounter, at, random) == LightSamples::alone) {
+            if (branches) {
+                reflected =
+                    reflection_probability(bsdf, optics, encounter->wo, Transport::radiance);
+            }
+            if (lit && add_direct_light(event, at, reflected, random) == LightSamples::alone) {
                 return false;
             }
         }
-        if (scatterings_ == 0 && importance_ >= least_importance_to_branch &&
-            std::holds_alternative<SmoothDielectric>(bsdf)) {
+        if (branches && std::holds_alternative<SmoothDielectric>(bsdf)) {
             branch(*encounter, bsdf, optics);
             return true;
         }
-        const double u_lobe = random.uniform();
+        if (reflected == 0.0 || reflected == 1.0) return scatter(event, 0.0, 1.0, random);
+        // Both sides are followed: a lamp behind a sheet that reflects more than it transmits would
+        // else be found by few rays.
+        const Way before = way_;
+        if (scatter(event, reflected, 1.0, random)) branches_.push_back(way_);
+        way_ = before;
+        return scatter(event, 0.0, reflected, random);
+    }
+
+    // Where the ray has come to, and what is done there.
+    struct Event {
+        const Encounter& encounter;
+        const Bsdf& bsdf;
+        const SurfaceOptics& optics;
+        Glossy passes_on;
+        bool lit, collected;
+    };
+
+    // What does not count at the event: see Collection.
+    Glossy passes_on_at(const Encounter& encounter) const {
+        if (way_.counted == 0 && collection_.reaches_second_event()) return {};
+        const Glossy& glossy = phase_.stage.glossy(encounter.bsdf, encounter.wo.z() > 0.0);
+        // A stored event accepts photons from both sides.
+        if (way_.counted > 0 && !(glossy.reflection && glossy.transmission)) return {};
+        return glossy;
+    }
+
+    // Goes on from an event by one of the lobes from `first` to `last`, of 0 to 1; false when the
+    // path has ended.
+    bool scatter(const Event& event, double first, double last, StratifiedStream& random) {
+        const auto& [encounter, bsdf, optics, glossy, lit, collected] = event;
+        const double share = last - first;
+        const double u_lobe = std::min(first + share * random.uniform(), std::nextafter(last, 0.0));
         auto [u1, u2] = random.pair();
-        if (scatterings_ == 0 && rays_.arrivals && std::holds_alternative<Diffuse>(bsdf) &&
-            rays_.arrivals->patch == kernel_patch(stage, encounter->point) &&
-            rays_.arrivals->above == (encounter->wo.z() > 0.0)) {
+        if (way_.scatterings == 0 && rays_.arrivals && std::holds_alternative<Diffuse>(bsdf) &&
+            rays_.arrivals->patch == kernel_patch(phase_.stage, encounter.point) &&
+            rays_.arrivals->above == (encounter.wo.z() > 0.0)) {
             scatter_to_arrivals(u1, u2);
         }
         const auto sampled =
-            sample(bsdf, optics, encounter->wo, u_lobe, u1, u2, Transport::radiance);
+            sample(bsdf, optics, encounter.wo, u_lobe, u1, u2, Transport::radiance);
         if (!sampled) return false;
+        const bool transmitted = sampled->wi.z() * encounter.wo.z() < 0.0;
+        const bool passes_on = transmitted ? glossy.transmission : glossy.reflection;
         // Beyond the second event a ray is followed for the emission that it might find.
         if (collected && !passes_on && !sampled->specular && !lit) return false;
-        const bool turned_hero = sampled->hero_only && !path_.hero_only;
-        const Lanes factors = sampled->weight * encounter->transmittance;
-        follow(path_, *encounter, *sampled);
+        const bool turned_hero = sampled->hero_only && !way_.path.hero_only;
+        const Lanes factors = sampled->weight * encounter.transmittance;
+        follow(way_.path, encounter, *sampled);
         if (sampled->specular) {
-            specular_since_ = true;
-            straight_ = false;
+            way_.specular_since = true;
+            way_.straight = false;
         } else {
             if (passes_on) {
-                straight_ = false;
+                way_.straight = false;
             } else {
-                ++counted_;
+                ++way_.counted;
             }
-            scattered_at(encounter->point.position, sampled->pdf_solid_angle, lit);
+            scattered_at(encounter.point.position, sampled->pdf_solid_angle / share, lit);
         }
-        float factor = live_max(path_, factors);
+        float factor = live_max(way_.path, factors);
         if (turned_hero) factor /= spectral::lane_count;
-        if (sampled->wi.z() * encounter->wo.z() < 0.0) {
+        if (transmitted) {
             // Radiance changes with n^2 and back again; that is no reason to end or to keep a path.
-            const int hero = path_.hero;
-            const float ratio = encounter->wo.z() > 0.0
+            const int hero = way_.path.hero;
+            const float ratio = encounter.wo.z() > 0.0
                                     ? optics.index_below[hero] / optics.index_above[hero]
                                     : optics.index_above[hero] / optics.index_below[hero];
             factor *= ratio * ratio;
         }
-        return roulette(path_, factor, random) == Fate::goes_on;
+        if (share == 1.0) return roulette(way_.path, factor, random) == Fate::goes_on;
+        way_.path.weight *= static_cast<float>(share);
+        way_.importance *= share;
+        return factor > 0.0f;
     }
 
     // What is seen in and through a smooth boundary is followed both ways, unless it matters
     // little: a lamp seen by reflection of a few percent would else be a rare bright dot.
     void branch(const Encounter& encounter, const Bsdf& bsdf, const SurfaceOptics& optics) {
-        Path path = path_;
+        Path path = way_.path;
         const auto one =
             sample(bsdf, optics, encounter.wo, one_event, 0.0, 0.0, Transport::radiance);
         if (one->probability < 1.0) {
@@ -268,37 +327,40 @@ private:
                 sample(bsdf, of_other, encounter.wo, other_event, 0.0, 0.0, Transport::radiance);
             follow(path, encounter, *other);
             path.weight *= static_cast<float>(other->probability);
-            branches_.push_back({path, importance_ * other->probability});
+            branches_.push_back({.path = path,
+                                 .importance = way_.importance * other->probability,
+                                 .straight = false});
         }
-        follow(path_, encounter, *one);
-        path_.weight *= static_cast<float>(one->probability);
-        importance_ *= one->probability;
+        follow(way_.path, encounter, *one);
+        way_.path.weight *= static_cast<float>(one->probability);
+        way_.importance *= one->probability;
     }
 
     void scattered_at(const Vec3& position, double pdf, bool lit) {
-        ++scatterings_;
-        specular_since_ = false;
-        lit_ = lit;
-        scattered_from_ = position;
-        scattered_pdf_ = pdf;
+        ++way_.scatterings;
+        way_.specular_since = false;
+        way_.lit = lit;
+        way_.scattered_from = position;
+        way_.scattered_pdf = pdf;
     }
 
     void add_emission(const Encounter& encounter) {
         const std::uint32_t light = phase_.stage.light_of(encounter.point.object);
         if (light == no_light) return;
         double weight = 1.0;
-        if (scatterings_ > 0 && specular_since_) {
-            const bool found = scatterings_ == 1 && rays_.looks_for && (*rays_.looks_for)[light];
+        if (way_.scatterings > 0 && way_.specular_since) {
+            const bool found =
+                way_.scatterings == 1 && rays_.looks_for && (*rays_.looks_for)[light];
             if (!found && !collection_.emission_behind_specular) return;  // the maps' part
             if (found) ++tally_.lights_found[light];
-        } else if (scatterings_ > 0) {
-            if (!lit_) return;  // the maps' part, too
-            weight =
-                emission_weight(phase_, light, scattered_from_, encounter.point, scattered_pdf_);
+        } else if (way_.scatterings > 0) {
+            if (!way_.lit) return;  // the maps' part, too
+            weight = emission_weight(phase_, light, way_.scattered_from, encounter.point,
+                                     way_.scattered_pdf);
         }
         const Lanes radiance =
-            emitted_radiance(phase_, light, encounter.point, -path_.ray.direction);
-        readings_.add(phase_, bin_, path_.weight * radiance * static_cast<float>(weight));
+            emitted_radiance(phase_, light, encounter.point, -way_.path.ray.direction);
+        readings_.add(phase_, bin_, way_.path.weight * radiance * static_cast<float>(weight));
     }
 
     // Whether rays that the first event scatters are of use, but for emission seen straight.
@@ -306,24 +368,25 @@ private:
 
     // Where a path need not go on but for emission that a scattered ray might find.
     LightSamples samples_of_lights(const GatherPoint& at) const {
-        const bool ends = !collection_.whole_path && (counted_ > 0 || !goes_on_from_first());
+        const bool ends = !collection_.whole_path && (way_.counted > 0 || !goes_on_from_first());
         return ends && lights_suffice(phase_.stage, at.bsdf, at.point.position)
                    ? LightSamples::alone
                    : LightSamples::weighed;
     }
 
-    LightSamples add_direct_light(const Encounter& encounter, const GatherPoint& at,
+    LightSamples add_direct_light(const Event& event, const GatherPoint& at, double reflected,
                                   StratifiedStream& random) {
+        const Encounter& encounter = event.encounter;
         const bool above = encounter.wo.z() > 0.0;
         const LightSamples samples = samples_of_lights(at);
         const ShadowRays shadow_rays =
-            counted_ > 0 && !collection_.whole_path ? ShadowRays::of_one : ShadowRays::of_all;
-        readings_.add(
-            phase_, bin_,
-            path_.weight * direct_light(phase_, at, &encounter.point,
-                                        above ? path_.media : encounter.media_beyond,
-                                        above ? encounter.media_beyond : path_.media, samples,
-                                        shadow_rays, random, tally_.shadow_segments));
+            way_.counted > 0 && !collection_.whole_path ? ShadowRays::of_one : ShadowRays::of_all;
+        readings_.add(phase_, bin_,
+                      way_.path.weight *
+                          direct_light(phase_, at, &encounter.point,
+                                       above ? way_.path.media : encounter.media_beyond,
+                                       above ? encounter.media_beyond : way_.path.media, samples,
+                                       reflected, shadow_rays, random, tally_.shadow_segments));
         return samples;
     }
 
@@ -331,24 +394,24 @@ private:
     // straight and with the same weight. Behind other events the rays of a bin spread widely and
     // their weights differ: there a share of them gathers, chosen beforehand.
     void gather_where_seen(const GatherPoint& at, std::uint8_t histories) {
-        if (path_.hero_only) return gather(at, histories, path_.weight);
-        if (!straight_) {
+        if (way_.path.hero_only) return gather(at, histories, way_.path.weight);
+        if (!way_.straight) {
             if (specular_gather_weight_ > 0.0f) {
-                gather(at, histories, specular_gather_weight_ * path_.weight);
+                gather(at, histories, specular_gather_weight_ * way_.path.weight);
             }
             return;
         }
         if (meter_ && std::holds_alternative<Diffuse>(at.bsdf)) {
             return gather_by_meter(at, histories);
         }
-        if (rays_.per_gather == 1) return gather(at, histories, path_.weight);
+        if (rays_.per_gather == 1) return gather(at, histories, way_.path.weight);
         const std::uint32_t patch = kernel_patch(phase_.stage, at.point);
         const bool above = at.wo.z() > 0.0;
         auto seen = std::find_if(seen_.begin(), seen_.end(), [&](const Seen& s) {
-            return s.patch == patch && s.above == above && (s.weight == path_.weight).all();
+            return s.patch == patch && s.above == above && (s.weight == way_.path.weight).all();
         });
         if (seen == seen_.end()) {
-            seen_.push_back({patch, above, 0, at.point.position, path_.weight, {}});
+            seen_.push_back({patch, above, 0, at.point.position, way_.path.weight, {}});
             seen = seen_.end() - 1;
         }
         if (seen->rays_left == 0) {
@@ -356,7 +419,7 @@ private:
             seen->gathered = gathered(at, histories);
         }
         --seen->rays_left;
-        add(seen->gathered, path_.weight);
+        add(seen->gathered, way_.path.weight);
     }
 
     // Many rays of a meter see nearly the same point: what one finds stands for the next ones that
@@ -373,10 +436,10 @@ private:
                                               radius_m(maps_.indirect, maps_.indirect_radii));
         if (seen_.empty() || seen_[0].patch != patch || seen_[0].above != above ||
             (seen_[0].position - at.point.position).squaredNorm() > near_m * near_m) {
-            seen_.assign(1, {patch, above, 0, at.point.position, path_.weight, {}});
+            seen_.assign(1, {patch, above, 0, at.point.position, way_.path.weight, {}});
             seen_[0].gathered = gathered(at, histories);
         }
-        add(seen_[0].gathered, path_.weight);
+        add(seen_[0].gathered, way_.path.weight);
     }
 
     void gather(const GatherPoint& at, std::uint8_t histories, const Lanes& weight) {
@@ -386,11 +449,11 @@ private:
     Gathered gathered(const GatherPoint& at, std::uint8_t histories) {
         GatherPoint own = at;
         own.tells_steps = !camera_rays_;
-        if (scatterings_ == 0) own.but_of = rays_.looks_for;
+        if (way_.scatterings == 0) own.but_of = rays_.looks_for;
         const ForwardMaps::Found found =
             maps_.gather(phase_, own, histories, rays_.kernel_scale, rays_.barriers);
         if (found.cut) ++cut_kernels_;
-        if (camera_rays_) kernel_bias_ += phase_.luminous(path_.weight * found.indirect_bias);
+        if (camera_rays_) kernel_bias_ += phase_.luminous(way_.path.weight * found.indirect_bias);
         return found.light;
     }
 
@@ -408,14 +471,14 @@ private:
         if (!accepts) return;
         stored_.push_back({.point = encounter.point,
                            .wo = encounter.wo,
-                           .throughput = path_.weight,
+                           .throughput = way_.path.weight,
                            .bsdf = encounter.bsdf,
                            .medium_above = encounter.medium_above,
                            .medium_below = encounter.medium_below,
                            .bin = bin_,
                            .accepts = accepts,
-                           .hero_only = path_.hero_only,
-                           .hero = static_cast<std::uint8_t>(path_.hero)});
+                           .hero_only = way_.path.hero_only,
+                           .hero = static_cast<std::uint8_t>(way_.path.hero)});
     }
 
     const Phase& phase_;
@@ -426,19 +489,15 @@ private:
     BackwardTally& tally_;
     std::vector<BackwardPhoton>& stored_;
 
-    Path path_;
+    Way way_;
     std::uint32_t bin_ = 0;
     BinRays rays_{};            // of the bin
     int cut_kernels_ = 0;       // by barriers, of those of a ray
     double kernel_bias_ = 0.0;  // of what a ray of a camera gathered from the map of indirect light
-    struct Branch {
-        Path path;
-        double importance;
-    };
     std::optional<CameraRays> camera_rays_;  // of a camera
     bool meter_ = false;
     MediumStack media_of_observer_;  // where the rays of the present bin start
-    std::vector<Branch> branches_;   // before the first scattering event, still to be followed
+    std::vector<Way> branches_;      // before the first scattering event, still to be followed
     struct Seen {
         std::uint32_t patch;
         bool above;
@@ -449,14 +508,6 @@ private:
     };
     std::vector<Seen, Eigen::aligned_allocator<Seen>> seen_;  // by the rays of the bin
     float specular_gather_weight_ = 1.0f;  // 0: the ray does not gather behind specular events
-    double importance_ = 1.0;  // share of the path's weight that its branches left to it
-    int scatterings_ = 0;
-    int counted_ = 0;  // of them, those that do not just pass the path on: v of Collection
-    bool lit_ = true;  // direct light was sampled at the last scattering event
-    bool specular_since_ = false;  // the last scattering event
-    bool straight_ = true;         // no event yet: all rays of the bin come this way
-    Vec3 scattered_from_ = Vec3::Zero();
-    double scattered_pdf_ = 0.0;
 };
 
 }  // namespace

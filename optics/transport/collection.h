@@ -12,9 +12,11 @@ namespace lucerna::optics {
 /// With v counting the scattering events from the observer: visible emission is counted by the ray
 /// itself; direct light at v = 1 by MIS; the rest by what is set here, in History values or-ed.
 ///
-/// A glossy surface (Stage::is_glossy) beyond v = 1, or where rays end at v = 1, does not count:
+/// A glossy surface (Stage::glossy) beyond v = 1, or where rays end at v = 1, does not count:
 /// direct light and caustics are collected there as by the next event that counts, indirect light
 /// is what the ray finds further on. Kernels would be noisy there, as few photons leave along it.
+/// Where only what a surface reflects is glossy, or only what it transmits, that goes for this
+/// light at v = 1.
 struct Collection {
     std::uint8_t first_gather = 0;          ///< v = 1: gathered from the forward map, on surfaces
     std::uint8_t sensor_gather = 0;         ///< v = 1: the same at illuminance points

@@ -140,6 +140,7 @@ void ForwardMap::for_each_in_kernel(const Stage& stage, const GatherPoint& at, d
             }
             for (std::size_t k = 0; k < found; ++k) {
                 const Candidate& candidate = bucket[near[k]];
+                if (!(candidate.above ? at.from_above : at.from_below)) continue;
                 const Photon& photon = photons_[candidate.photon];
                 const double distance_m2 = (photon.point.position - centre).squaredNorm();
                 if (distance_m2 >= square_m2 || kernel_patch(stage, photon.point) != patch)

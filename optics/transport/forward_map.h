@@ -71,6 +71,8 @@ struct GatherPoint {
     const KernelRegion* region = nullptr;  ///< that barriers leave of the kernel, if there are any
     const std::vector<bool>* but_of = nullptr;  ///< lights whose photons are left out, if any
     bool tells_steps = false;                   ///< which costs time
+    /// Which photons of indirect light count, by the side of the surface on which they arrive.
+    bool from_above = true, from_below = true;
 };
 
 using PerAxis = std::array<Lanes, 3>;

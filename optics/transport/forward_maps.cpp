@@ -12,6 +12,7 @@ ForwardMaps::Found ForwardMaps::gather(const Phase& phase, const GatherPoint& at
     const bool of_indirect = (histories & mask(History::indirect)) && !indirect.empty();
     GatherPoint narrow = at, wide = at;
     wide.but_of = nullptr;
+    narrow.from_above = narrow.from_below = true;
     if (of_indirect) {
         wide.most_radius_m = std::min(at.most_radius_m, kernel_scale * indirect_radii[patch]);
     }

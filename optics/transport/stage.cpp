@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/diagnostics.h"
 #include "spectral/photometry.h"
@@ -33,6 +34,25 @@ spectral::Spectrum total_emission(const SceneParts& parts) {
 bool any_disperses(const SceneParts& parts) {
     return std::any_of(parts.media.begin(), parts.media.end(),
                        [](const Medium& medium) { return medium.dispersive; });
+}
+
+// Toward the side of +z, or of -z.
+Glossy glossy_toward(const Bsdf& bsdf, double side, const spectral::WavelengthSampler& sampler) {
+    if (std::holds_alternative<RoughConductor>(bsdf) ||
+        std::holds_alternative<RoughDielectric>(bsdf)) {
+        return {true, true};
+    }
+    const auto* measured = std::get_if<Measured>(&bsdf);
+    if (!measured) return {};
+    constexpr double most = 4.0;  // to gather from photons around the point
+    constexpr double angle_rad = 40.0 * pi / 180.0;
+    const Vec3 wo(std::sin(angle_rad), 0.0, side * std::cos(angle_rad));
+    const auto wavelengths = sampler.sample(0, 0);
+    const auto glossy = [&](bool reflection) {
+        const double of_side = concentration(*measured->data, wo, reflection, wavelengths);
+        return of_side == 0.0 || of_side > most;
+    };
+    return {glossy(true), glossy(false)};
 }
 
 std::vector<double> luminous_fluxes(const SceneParts& parts) {
@@ -118,8 +138,8 @@ Stage::Stage(const SceneParts& parts, std::optional<bool> polarisation)
         }));
     for (const Bsdf& bsdf : parts_.bsdfs) {
         scatters_.push_back(has_scattering_lobe(bsdf, parts_.bsdfs));
-        is_glossy_.push_back(std::holds_alternative<RoughConductor>(bsdf) ||
-                             std::holds_alternative<RoughDielectric>(bsdf));
+        const auto glossy = [&](double side) { return glossy_toward(bsdf, side, wavelengths_); };
+        glossy_.push_back({glossy(1.0), glossy(-1.0)});
         is_specular_.push_back(has_specular_lobe(bsdf, parts_.bsdfs));
     }
     patch_offset_.push_back(0);

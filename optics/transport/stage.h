@@ -1,6 +1,7 @@
 // A scene made ready for simulation: what does not change from phase to phase.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -13,6 +14,13 @@
 namespace lucerna::optics {
 
 inline constexpr std::uint32_t no_light = ~0u;
+
+/// The light that a surface scatters toward one of its sides: whether what it reflects, and what it
+/// transmits, comes from so few directions that few of the photons around a point are of use, or
+/// none.
+struct Glossy {
+    bool reflection = false, transmission = false;
+};
 
 class Stage {
 public:
@@ -42,9 +50,8 @@ public:
     /// The virtual surface of illuminance points: Lambertian, reflectance 1.
     BsdfId white_diffuser() const { return white_diffuser_; }
     bool scatters(BsdfId bsdf) const { return scatters_[bsdf]; }
-    /// Whether all that the BSDF scatters keeps near specular directions (rough metals and
-    /// boundaries): few photons around a point are of use to a ray that comes there.
-    bool is_glossy(BsdfId bsdf) const { return is_glossy_[bsdf]; }
+    /// Of what the BSDF scatters toward the side of +z, or the other.
+    const Glossy& glossy(BsdfId bsdf, bool above) const { return glossy_[bsdf][above ? 0 : 1]; }
     /// Whether the BSDF has a specular lobe.
     bool is_specular(BsdfId bsdf) const { return is_specular_[bsdf]; }
     /// True if any surface scatters light.
@@ -74,7 +81,8 @@ private:
     std::vector<Sphere> unevenly_sampled_;
     std::vector<std::uint32_t> patch_offset_;  // one more than objects
     std::vector<double> patch_areas_m2_;
-    std::vector<bool> scatters_, is_glossy_, is_specular_;
+    std::vector<bool> scatters_, is_specular_;
+    std::vector<std::array<Glossy, 2>> glossy_;
     std::vector<std::pair<ObjectId, Eigen::AlignedBox3d>> solids_;  // objects with an interior
     BsdfId white_diffuser_ = 0;
     bool has_scattering_ = false;

@@ -48,6 +48,26 @@ inline Density density_of(const Surface& surface, const Vec3& wo, Transport tran
     };
 }
 
+/// reflection_probability() is the integral of the density over the side of wo, and the u_lobe
+/// below it reflect.
+inline void check_sides(const Surface& surface, const Vec3& wo, Transport transport) {
+    const double reflected =
+        optics::reflection_probability(surface.bsdf(), surface.at(), wo, transport);
+    INFO("probability of reflection " << reflected);
+    const Density density = density_of(surface, wo, transport);
+    const double integral =
+        sphere_integral([&](const Vec3& wi) { return wi.z() * wo.z() > 0.0 ? density(wi) : 0.0; });
+    CHECK(std::abs(integral - reflected) < 0.01);
+    RandomStream random(12, 0, RandomPurpose::test, 0);
+    for (int i = 0; i < 1000; ++i) {
+        const double u_lobe = random.uniform(), u1 = random.uniform(), u2 = random.uniform();
+        const auto event =
+            optics::sample(surface.bsdf(), surface.at(), wo, u_lobe, u1, u2, transport);
+        if (!event) FAIL("no sample");
+        if ((event->wi.z() * wo.z() > 0.0) != (u_lobe < reflected)) FAIL("u_lobe " << u_lobe);
+    }
+}
+
 /// Mean and standard error of the weight of each lane.
 struct MeanWeight {
     Eigen::Array<double, spectral::lane_count, 1> mean, standard_error;

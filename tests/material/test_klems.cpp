@@ -196,6 +196,34 @@ TEST_CASE("Klems patches are sampled in exact proportion, both ways", "[statisti
     }
 }
 
+TEST_CASE("Klems data choose the side first, both ways", "[property]") {
+    check_sides(random_surface(), direction(GENERATE(3.0, 50.0, 120.0), 33.0),
+                GENERATE(Transport::radiance, Transport::flux));
+}
+
+TEST_CASE("Light from a single patch is concentrated by pi over its projected solid angle",
+          "[unit]") {
+    const KlemsBasis basis = KlemsBasis::full();
+    std::vector<float> straight(145 * 145, 0.0f), even(145 * 145, 0.2f);
+    for (std::size_t i = 0; i < 145; ++i) straight[i * 145 + i] = 3.0f;
+    MeasuredParts<KlemsMatrix> parts;
+    parts.reflection[front] = KlemsMatrix(basis, basis, even);
+    parts.transmission[back] = KlemsMatrix(basis, basis, straight);
+    const MeasuredBsdf sheet{KlemsBsdf(parts)};
+    const Surface surface = random_surface();
+    const auto at = [&](double theta_deg, bool reflection) {
+        return concentration(sheet, direction(theta_deg, 3.0), reflection,
+                             surface.at().wavelengths);
+    };
+    CHECK_THAT(at(40.0, true), WithinRel(1.0, 1e-6));
+    for (const double theta_deg : {0.0, 40.0, 80.0}) {
+        const int patch = basis.patch(direction(theta_deg, 3.0));
+        CHECK_THAT(at(theta_deg, false),
+                   WithinRel(pi / basis.projected_solid_angle_sr(patch), 0.1));
+    }
+    CHECK(at(140.0, true) == 0.0);  // the back was not measured
+}
+
 TEST_CASE("The density of measured data is f cos over its integral", "[property]") {
     const Surface surface = random_surface();
     const Transport transport = GENERATE(Transport::radiance, Transport::flux);

@@ -63,6 +63,13 @@ TEST_CASE("The diffuse sampler follows its density", "[statistical]") {
     check_sampler(diffuse(0.6, 0.3), direction(GENERATE(0.0, 80.0, 130.0), 20.0), Transport::flux);
 }
 
+TEST_CASE("A diffuse sheet chooses the side first", "[property]") {
+    check_sides(diffuse(0.6, 0.3), direction(GENERATE(20.0, 130.0), 20.0), Transport::radiance);
+    const Surface paint = diffuse(0.6, 0.0), mixed = mixture();
+    CHECK(reflection_probability(paint.bsdf(), paint.at(), Vec3::UnitZ(), Transport::flux) == 1.0);
+    CHECK(reflection_probability(mixed.bsdf(), mixed.at(), Vec3::UnitZ(), Transport::flux) == 1.0);
+}
+
 TEST_CASE("The sampler of rough metal follows its density", "[statistical]") {
     const double roughness = GENERATE(0.15, 0.5, 1.0);
     CAPTURE(roughness);

@@ -59,6 +59,11 @@ Surface lobe_surface() {
 
 }  // namespace
 
+TEST_CASE("A table chooses the side first, both ways", "[property]") {
+    check_sides(lobe_surface(), direction(GENERATE(20.0, 130.0), 33.0),
+                GENERATE(Transport::radiance, Transport::flux));
+}
+
 TEST_CASE("A table returns its values at the grid points and the mean between them", "[unit]") {
     const Surface surface = lobe_surface();
     const auto value = [&](double theta_in, double theta_out, double phi, int lane) {

@@ -210,8 +210,7 @@ private:
         const bool above = encounter->wo.z() > 0.0;
         const Glossy passes_on = passes_on_at(*encounter);
         const bool lit = !collected || collection_.second_direct;
-        const bool branches =
-            way_.scatterings == 0 && way_.importance >= least_importance_to_branch;
+        const bool branches = way_.counted == 0 && way_.importance >= least_importance_to_branch;
         const Event event{*encounter, bsdf, optics, passes_on, lit, collected};
         double reflected = 1.0;
         if (stage.scatters(encounter->bsdf)) {
@@ -234,7 +233,7 @@ private:
                 return false;
             }
         }
-        if (branches && std::holds_alternative<SmoothDielectric>(bsdf)) {
+        if (branches && way_.scatterings == 0 && std::holds_alternative<SmoothDielectric>(bsdf)) {
             branch(*encounter, bsdf, optics);
             return true;
         }

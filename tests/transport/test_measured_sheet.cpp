@@ -82,7 +82,8 @@ TEST_CASE("A map and path tracing agree on a measured sheet between two rooms", 
     scene.area_light(
         scene.object("lamp", Rectangle{{0.3, 0.3, 0.99}, 0.4 * ey, 0.4 * ex}, scene.black()),
         1000.0);
-    scene.meter({1.9, 0.5, 0.4}, {1.0, 0.4, 0.5}, 0.1);  // the sheet from the dark room
+    // The sheet from the dark room, where the lamp shows through it in the mirror.
+    scene.meter({1.9, 0.5, 0.1}, {1.0, 0.5, 0.45}, 0.1);
     scene.meter({0.1, 0.5, 0.4}, {1.0, 0.4, 0.5}, 0.1);  // and from the bright one
     const auto read = [&](Method method) {
         const std::uint64_t seed = 100 + static_cast<std::uint64_t>(method);

@@ -30,6 +30,18 @@ std::uint32_t times_traced(const TraceContext& context, Reach reach) {
     return traces_planes_apart(context, reach) && context.stage.has_scattering() ? 2 : 1;
 }
 
+// All lists in one, in their order.
+std::vector<Photon> joined(const std::vector<std::vector<Photon>>& lists, int threads) {
+    std::vector<std::size_t> starts{0};
+    for (const auto& list : lists) starts.push_back(starts.back() + list.size());
+    std::vector<Photon> all(starts.back());
+    for_each_block(lists.size(), threads, [&](std::size_t i) {
+        std::copy(lists[i].begin(), lists[i].end(),
+                  all.begin() + static_cast<std::ptrdiff_t>(starts[i]));
+    });
+    return all;
+}
+
 // The photons of one history: caustics need no path beyond the first scattering event.
 ForwardMap forward_map(const Phase& phase, const TraceContext& context, History history,
                        const Emission& emission, std::uint32_t rays, const Radii& radii,
@@ -169,21 +181,14 @@ std::vector<Photon> trace_photons(const Phase& phase, const TraceContext& contex
             trace(own, i, std::min(end, i + rays_of_own_wavelengths), task, false, true);
         }
     });
-    std::vector<std::size_t> starts{0};
     for (std::uint32_t task = 0; task < tasks; ++task) {
-        starts.push_back(starts.back() + photons[task].size());
         if (task < blocks) {
             tally += tallies[task];
         } else {
             tally.segments += tallies[task].segments;
         }
     }
-    std::vector<Photon> all(starts.back());
-    for_each_block(tasks, context.threads, [&](std::size_t task) {
-        std::copy(photons[task].begin(), photons[task].end(),
-                  all.begin() + static_cast<std::ptrdiff_t>(starts[task]));
-    });
-    return all;
+    return joined(photons, context.threads);
 }
 
 std::vector<RaySums> trace_single_rays(const Phase& phase, const TraceContext& context,

@@ -190,6 +190,11 @@ std::optional<Bsdf> SceneMaterials::read_mixture(YamlMap& map, bool& needs_up) {
     if (components.is_sequence() && components.list().empty())
         components.complain("expected at least one component");
     if (!complete || mixture.components.empty()) return {};
+    // In this order rays can follow scattering and specular events apart: see event_split().
+    const std::vector<Bsdf>& bsdfs = context_.scene.parts.bsdfs;
+    std::ranges::stable_partition(mixture.components, [&](const Mixture::Component& component) {
+        return has_scattering_lobe(bsdfs[component.bsdf], bsdfs);
+    });
     return mixture;
 }
 

@@ -47,15 +47,18 @@ std::optional<BsdfSample> sample(const Bsdf& bsdf, const SurfaceOptics& at, cons
     return event;
 }
 
-double reflection_probability(const Bsdf& bsdf, const SurfaceOptics& at, const Vec3& wo,
-                              Transport transport) {
+EventSplit event_split(const Bsdf& bsdf, const SurfaceOptics& at, const Vec3& wo,
+                       Transport transport) {
     if (const auto* diffuse = std::get_if<Diffuse>(&bsdf)) {
-        return reflection_probability(*diffuse, at);
+        return {reflection_probability(*diffuse, at), true};
     }
     if (const auto* measured = std::get_if<Measured>(&bsdf)) {
-        return reflection_probability(*measured, wo, transport);
+        return {reflection_probability(*measured, wo, transport), true};
     }
-    return 1.0;
+    if (const auto* mixture = std::get_if<Mixture>(&bsdf)) {
+        return {scattering_probability(*mixture, at.bsdfs), false};
+    }
+    return {};
 }
 
 namespace {

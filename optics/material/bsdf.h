@@ -130,10 +130,20 @@ double pdf_solid_angle(const Bsdf& bsdf, const SurfaceOptics& at, const Vec3& wo
 std::optional<BsdfSample> sample(const Bsdf& bsdf, const SurfaceOptics& at, const Vec3& wo,
                                  double u_lobe, double u1, double u2, Transport transport);
 
-/// Where sample() chooses between reflection and transmission by u_lobe alone, the probability of
-/// reflection, which the u_lobe below it stand for; 1 where it does not, or there is one side only.
-double reflection_probability(const Bsdf& bsdf, const SurfaceOptics& at, const Vec3& wo,
-                              Transport transport);
+/// Two kinds of events between which sample() chooses by u_lobe alone: reflection and transmission
+/// of a sheet, or scattering and specular events of a mixture.
+struct EventSplit {
+    double first = 1.0;  ///< probability of the first kind, which the u_lobe below it stand for
+    bool by_side = false;
+
+    bool has_both() const { return first > 0.0 && first < 1.0; }
+    /// Of the kind to which the scattered direction wi belongs.
+    double probability_of(const Vec3& wo, const Vec3& wi) const {
+        return by_side && wo.z() * wi.z() < 0.0 ? 1.0 - first : first;
+    }
+};
+EventSplit event_split(const Bsdf& bsdf, const SurfaceOptics& at, const Vec3& wo,
+                       Transport transport);
 
 /// Whether the BSDF has lobes of the kind at all (for the scene's maps and light choice).
 bool has_specular_lobe(const Bsdf& bsdf, const std::vector<Bsdf>& bsdfs);

@@ -37,6 +37,18 @@ double pdf_solid_angle(const Mixture& mixture, const SurfaceOptics& at, const Ve
     return sum / total;
 }
 
+double scattering_probability(const Mixture& mixture, const std::vector<Bsdf>& bsdfs) {
+    double scattering = 0.0;
+    bool specular = false;
+    for (const auto& [weight, id] : mixture.components) {
+        const bool scatters = has_scattering_lobe(bsdfs[id], bsdfs);
+        specular = specular || has_specular_lobe(bsdfs[id], bsdfs);
+        if (specular && scatters) return 1.0;
+        if (!specular) scattering += weight;
+    }
+    return specular ? scattering / total_weight(mixture) : 1.0;
+}
+
 std::optional<BsdfSample> sample(const Mixture& mixture, const SurfaceOptics& at, const Vec3& wo,
                                  const EventNumbers& u, Transport transport) {
     const double total = total_weight(mixture);

@@ -53,9 +53,12 @@ double pdf_solid_angle(const Mixture&, const SurfaceOptics&, const Vec3& wo, con
 std::optional<BsdfSample> sample(const Mixture&, const SurfaceOptics&, const Vec3& wo,
                                  const EventNumbers&, Transport);
 
-// Models that choose the side first: see reflection_probability() of bsdf.h.
+// Models that choose the kind of an event first, see event_split() of bsdf.h: probability of the
+// kind that u_lobe below it stand for.
 double reflection_probability(const Diffuse&, const SurfaceOptics&);
 double reflection_probability(const Measured&, const Vec3& wo, Transport);
+/// 1 unless all components that scatter stand before all that are specular.
+double scattering_probability(const Mixture&, const std::vector<Bsdf>& bsdfs);
 
 // Models with specular lobes only.
 std::optional<BsdfSample> sample(const Mirror&, const SurfaceOptics&, const Vec3& wo,

@@ -177,7 +177,7 @@ private:
             readings_.add(
                 phase_, bin_,
                 way_.path.weight * direct_light(phase_, at, nullptr, way_.path.media,
-                                                way_.path.media, samples, 1.0, ShadowRays::of_all,
+                                                way_.path.media, samples, {}, ShadowRays::of_all,
                                                 random, tally_.shadow_segments));
         });
         if (samples == LightSamples::alone) return false;
@@ -212,7 +212,7 @@ private:
         const bool lit = !collected || collection_.second_direct;
         const bool branches = way_.counted == 0 && way_.importance >= least_importance_to_branch;
         const Event event{*encounter, bsdf, optics, passes_on, lit, collected};
-        double reflected = 1.0;
+        EventSplit split;
         if (stage.scatters(encounter->bsdf)) {
             GatherPoint at{encounter->point, encounter->frame, encounter->wo, bsdf, optics};
             at.from_above = !(above ? passes_on.reflection : passes_on.transmission);
@@ -226,10 +226,9 @@ private:
                 store(*encounter, collection_.second_deposit & here);
             }
             if (branches) {
-                reflected =
-                    reflection_probability(bsdf, optics, encounter->wo, Transport::radiance);
+                split = event_split(bsdf, optics, encounter->wo, Transport::radiance);
             }
-            if (lit && add_direct_light(event, at, reflected, random) == LightSamples::alone) {
+            if (lit && add_direct_light(event, at, split, random) == LightSamples::alone) {
                 return false;
             }
         }
@@ -237,13 +236,13 @@ private:
             branch(*encounter, bsdf, optics);
             return true;
         }
-        if (reflected == 0.0 || reflected == 1.0) return scatter(event, 0.0, 1.0, random);
-        // Both sides are followed: a lamp behind a sheet that reflects more than it transmits would
-        // else be found by few rays.
+        if (!split.has_both()) return scatter(event, 0.0, 1.0, random);
+        // Both are followed: few rays would else find a lamp behind a sheet that reflects more than
+        // it transmits, or in a floor that mirrors a little.
         const Way before = way_;
-        if (scatter(event, reflected, 1.0, random)) branches_.push_back(way_);
+        if (scatter(event, split.first, 1.0, random)) branches_.push_back(way_);
         way_ = before;
-        return scatter(event, 0.0, reflected, random);
+        return scatter(event, 0.0, split.first, random);
     }
 
     // Where the ray has come to, and what is done there.
@@ -307,10 +306,11 @@ private:
                                     : optics.index_above[hero] / optics.index_below[hero];
             factor *= ratio * ratio;
         }
-        if (share == 1.0) return roulette(way_.path, factor, random) == Fate::goes_on;
         way_.path.weight *= static_cast<float>(share);
         way_.importance *= share;
-        return factor > 0.0f;
+        // The rarer kind of two is worth its ray.
+        if (share < 0.5) return factor > 0.0f;
+        return roulette(way_.path, factor, random) == Fate::goes_on;
     }
 
     // What is seen in and through a smooth boundary is followed both ways, unless it matters
@@ -373,8 +373,8 @@ private:
                    : LightSamples::weighed;
     }
 
-    LightSamples add_direct_light(const Event& event, const GatherPoint& at, double reflected,
-                                  StratifiedStream& random) {
+    LightSamples add_direct_light(const Event& event, const GatherPoint& at,
+                                  const EventSplit& split, StratifiedStream& random) {
         const Encounter& encounter = event.encounter;
         const bool above = encounter.wo.z() > 0.0;
         const LightSamples samples = samples_of_lights(at);
@@ -385,7 +385,7 @@ private:
                           direct_light(phase_, at, &encounter.point,
                                        above ? way_.path.media : encounter.media_beyond,
                                        above ? encounter.media_beyond : way_.path.media, samples,
-                                       reflected, shadow_rays, random, tally_.shadow_segments));
+                                       split, shadow_rays, random, tally_.shadow_segments));
         return samples;
     }
 

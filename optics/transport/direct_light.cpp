@@ -86,12 +86,11 @@ bool lights_suffice(const Stage& stage, const Bsdf& bsdf, const Vec3& x) {
 
 Lanes direct_light(const Phase& phase, const GatherPoint& at, const SurfacePoint* surface,
                    const MediumStack& media_above, const MediumStack& media_below,
-                   LightSamples samples, double reflected, ShadowRays shadow_rays,
+                   LightSamples samples, const EventSplit& split, ShadowRays shadow_rays,
                    StratifiedStream& random, std::uint64_t& shadow_segments) {
     const Stage& stage = phase.stage;
     const std::size_t lights = stage.parts().lights.size();
     const std::size_t draws = std::min(lights, max_light_draws);
-    const bool both_sides = reflected > 0.0 && reflected < 1.0;
     // What each drawn light would bring if nothing stood in its way.
     struct Candidate {
         Illumination light;
@@ -121,7 +120,7 @@ Lanes direct_light(const Phase& phase, const GatherPoint& at, const SurfacePoint
         double weight = 1.0;
         if (samples == LightSamples::weighed && !sampled->delta) {
             double by_bsdf = pdf_solid_angle(at.bsdf, at.optics, at.wo, wi, Transport::radiance);
-            if (both_sides) by_bsdf /= wi.z() * at.wo.z() > 0.0 ? reflected : 1.0 - reflected;
+            if (split.has_both()) by_bsdf /= split.probability_of(at.wo, wi);
             weight = power_weight(expected * sampled->pdf_solid_angle, by_bsdf);
         }
         const Lanes radiance =

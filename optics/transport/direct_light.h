@@ -33,12 +33,11 @@ bool lights_suffice(const Stage& stage, const Bsdf& bsdf, const Vec3& x);
 
 /// Radiance scattered toward wo from sampled points of the lights.
 /// @param surface  where the shadow rays leave; nullptr for a point in free space.
-/// @param reflected  where both sides of the surface are followed, reflection_probability();
-///                   else 1.
+/// @param split  where rays follow both kinds of events, of each its own; else of one kind.
 /// @param media_above, media_below  solids that hold the space on both sides of the surface.
 Lanes direct_light(const Phase& phase, const GatherPoint& at, const SurfacePoint* surface,
                    const MediumStack& media_above, const MediumStack& media_below,
-                   LightSamples samples, double reflected, ShadowRays shadow_rays,
+                   LightSamples samples, const EventSplit& split, ShadowRays shadow_rays,
                    StratifiedStream& random, std::uint64_t& shadow_segments);
 
 /// Weight of emission found by a direction that the BSDF chose with density `pdf_solid_angle` from

@@ -48,11 +48,13 @@ inline Density density_of(const Surface& surface, const Vec3& wo, Transport tran
     };
 }
 
-/// reflection_probability() is the integral of the density over the side of wo, and the u_lobe
+/// event_split() states the integral of the density over the side of wo, and the u_lobe
 /// below it reflect.
 inline void check_sides(const Surface& surface, const Vec3& wo, Transport transport) {
-    const double reflected =
-        optics::reflection_probability(surface.bsdf(), surface.at(), wo, transport);
+    const optics::EventSplit split =
+        optics::event_split(surface.bsdf(), surface.at(), wo, transport);
+    REQUIRE(split.by_side);
+    const double reflected = split.first;
     INFO("probability of reflection " << reflected);
     const Density density = density_of(surface, wo, transport);
     const double integral =

@@ -66,8 +66,32 @@ TEST_CASE("The diffuse sampler follows its density", "[statistical]") {
 TEST_CASE("A diffuse sheet chooses the side first", "[property]") {
     check_sides(diffuse(0.6, 0.3), direction(GENERATE(20.0, 130.0), 20.0), Transport::radiance);
     const Surface paint = diffuse(0.6, 0.0), mixed = mixture();
-    CHECK(reflection_probability(paint.bsdf(), paint.at(), Vec3::UnitZ(), Transport::flux) == 1.0);
-    CHECK(reflection_probability(mixed.bsdf(), mixed.at(), Vec3::UnitZ(), Transport::flux) == 1.0);
+    CHECK_FALSE(event_split(paint.bsdf(), paint.at(), Vec3::UnitZ(), Transport::flux).has_both());
+    CHECK_FALSE(event_split(mixed.bsdf(), mixed.at(), Vec3::UnitZ(), Transport::flux).has_both());
+}
+
+TEST_CASE("A mixture scatters below the u_lobe that its specular components begin with",
+          "[property]") {
+    Surface surface;
+    const BsdfId paint =
+        surface.add(Diffuse{surface.spectrum(lanes(0.6)), surface.spectrum(lanes(0.0))});
+    const BsdfId mirror = surface.add(Mirror{surface.spectrum(lanes(0.9))});
+    const BsdfId metal =
+        surface.add(SmoothConductor{surface.spectrum(lanes(0.5)), surface.spectrum(lanes(4.0))});
+    surface.add(Mixture{{{0.6, paint}, {0.1, mirror}, {0.2, metal}}});
+    const Vec3 wo = direction(30.0, 70.0);
+    const EventSplit split = event_split(surface.bsdf(), surface.at(), wo, Transport::radiance);
+    CHECK_THAT(split.first, WithinRel(0.6 / 0.9, 1e-12));
+    CHECK(split.probability_of(wo, direction(50.0, 10.0)) == split.first);
+    for (int i = 0; i < 100; ++i) {
+        const double u_lobe = (i + 0.5) / 100.0;
+        const auto event =
+            sample(surface.bsdf(), surface.at(), wo, u_lobe, 0.3, 0.4, Transport::radiance);
+        REQUIRE(event);
+        CHECK(event->specular == (u_lobe >= split.first));
+    }
+    surface.add(Mixture{{{0.1, mirror}, {0.6, paint}}});
+    CHECK_FALSE(event_split(surface.bsdf(), surface.at(), wo, Transport::radiance).has_both());
 }
 
 TEST_CASE("The sampler of rough metal follows its density", "[statistical]") {

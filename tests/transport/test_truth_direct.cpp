@@ -61,6 +61,31 @@ TEST_CASE("Direct light: a square luminaire by Lambert's formula", "[analytic]")
     }
 }
 
+TEST_CASE("Direct light: a coated floor that mirrors a lamp", "[analytic]") {
+    const auto method = GENERATE(Method::combined, Method::forward, Method::path);
+    const double luminance = 2000.0, rho = 0.5, mirror_rho = 0.9;
+    const double weight_of_paint = 0.9, weight_of_coat = 0.08;
+    const Vec3 ex = Vec3::UnitX(), ey = Vec3::UnitY(), ez = Vec3::UnitZ();
+    const Vec3 corner(-0.4, -0.4, 1.5), target = Vec3::Zero();
+    SceneBuilder scene;
+    scene.area_light(scene.object("lamp", Rectangle{corner, 0.8 * ey, 0.8 * ex}, scene.black()),
+                     luminance);
+    const BsdfId paint = scene.diffuse(rho), coat = scene.mirror(mirror_rho);
+    scene.object(
+        "floor", Rectangle{{-2, -2, 0}, 4 * ex, 4 * ey},
+        scene.parts.add(Bsdf{Mixture{{{weight_of_paint, paint}, {weight_of_coat, coat}}}}));
+    scene.meter({0.1, 0.1, 1.2}, target, 0.01);
+    const double mirrored = weight_of_coat * mirror_rho * luminance;
+    const double scattered =
+        weight_of_paint * rho / pi *
+        polygon_illuminance(truth::corners(corner, 0.8 * ey, 0.8 * ex), luminance, target, ez);
+    INFO("method " << static_cast<int>(method));
+    const Estimate estimate = test::run(scene, method, {64, 100}).quantities.front().estimate;
+    test::check_truth(estimate, mirrored + scattered);
+    test::check_refutes(estimate, 1.05 * mirrored + scattered);
+    test::check_refutes(estimate, mirrored + 1.05 * scattered);
+}
+
 TEST_CASE("Direct light: more lights than are drawn at once", "[analytic]") {
     // Of many lights only some are drawn, by their flux: points, and two panels by Lambert's
     // formula.

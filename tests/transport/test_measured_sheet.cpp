@@ -84,7 +84,8 @@ TEST_CASE("A map and path tracing agree on a measured sheet between two rooms", 
         1000.0);
     // The sheet from the dark room, where the lamp shows through it in the mirror.
     scene.meter({1.9, 0.5, 0.1}, {1.0, 0.5, 0.45}, 0.1);
-    scene.meter({0.1, 0.5, 0.4}, {1.0, 0.4, 0.5}, 0.1);  // and from the bright one
+    scene.meter({1.9, 0.5, 0.4}, {1.0, 0.4, 0.5}, 0.1);  // where the bright walls show
+    scene.meter({0.1, 0.5, 0.4}, {1.0, 0.4, 0.5}, 0.1);  // the sheet from the bright room
     const auto read = [&](Method method) {
         const std::uint64_t seed = 100 + static_cast<std::uint64_t>(method);
         return test::run(scene, method, {10, 20000}, seed, hardware_threads()).quantities;

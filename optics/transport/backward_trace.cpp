@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "optics/transport/bin_gathers.h"
+
 namespace lucerna::optics {
 namespace {
 
@@ -18,9 +20,9 @@ public:
           collection_(is_camera(phase.stage.parts(), bins) ? collections.cameras
                                                            : collections.sensors),
           planes_(planes),
-          maps_(maps),
           readings_(readings),
           tally_(tally),
+          gathers_(phase, bins, maps, readings),
           stored_(stored) {
         const Observer& observer = phase.stage.parts().observers[bins.observer];
         if (const auto* camera = std::get_if<Camera>(&observer)) {
@@ -28,7 +30,6 @@ public:
             media_of_observer_ = phase.stage.media_at(camera->from);
         } else if (const auto* meter = std::get_if<LuminanceMeter>(&observer)) {
             media_of_observer_ = phase.stage.media_at(meter->position);
-            meter_ = true;
         }
     }
 
@@ -44,17 +45,13 @@ public:
         rays_ = rays;
         if (rays.count == 0) return;
         if (rays.looks_for) tally_.lights_found.resize(rays.looks_for->size());
-        const std::uint32_t gathers = rays.count / rays.per_gather;
-        seen_.clear();
+        gathers_.start(bin_, rays);
         for (std::uint32_t ray = 0; ray < rays.count; ++ray) {
             StratifiedStream random(
                 {phase_.seed, phase_.number, RandomPurpose::backward, rays.first_path + ray},
                 {set, ray, rays.count});
-            specular_gather_weight_ =
-                ray < gathers ? static_cast<float>(rays.count) / static_cast<float>(gathers) : 0.0f;
+            gathers_.next_ray(ray);
             const double before = readings_.luminance(bin_);
-            kernel_bias_ = 0.0;
-            cut_kernels_ = 0;
             const std::uint64_t segments = tally_.segments + tally_.shadow_segments;
             trace(bins, bin, ray, random);
             if (sums) {
@@ -63,8 +60,8 @@ public:
                 sums->rays += 1.0f;
                 sums->luminance += luminance;
                 sums->square += luminance * luminance;
-                sums->kernel_bias += static_cast<float>(rays.count * kernel_bias_);
-                sums->barriers += static_cast<float>(cut_kernels_);
+                sums->kernel_bias += static_cast<float>(rays.count * gathers_.kernel_bias());
+                sums->barriers += static_cast<float>(gathers_.cut_kernels());
                 sums->segments +=
                     static_cast<float>(tally_.segments + tally_.shadow_segments - segments);
             }
@@ -146,18 +143,14 @@ private:
         const Vec3 wo = Vec3::UnitZ();
         const Bsdf& diffuser = phase_.stage.parts().bsdfs[phase_.stage.white_diffuser()];
         const SurfaceOptics optics = optics_at(phase_, no_object, no_object, false, 0);
-        use(GatherPoint{point, frame, wo, diffuser, optics, sensor.clearance_m, sensor.index});
+        GatherPoint at{point, frame, wo, diffuser, optics, sensor.clearance_m, sensor.index};
+        at.but_of = rays_.looks_for;
+        use(at);
     }
 
     void gather_at_sensor(const IlluminancePoints& points, const SensorPlanes::Point& sensor) {
         at_sensor(points, sensor, [&](const GatherPoint& at) {
-            const Gathered found = gathered(at, collection_.sensor_gather);  // X, Y, Z: see Photon
-            constexpr auto weight = static_cast<float>(pi);
-            readings_.add_tristimulus(bin_, weight * found.radiance, weight * found.bias);
-            const auto luminous = [&](const PerAxis& moment) {
-                return Vec3(pi * Vec3(moment[0][1], moment[1][1], moment[2][1]));
-            };
-            readings_.add_steps(bin_, luminous(found.slope), luminous(found.step));
+            gathers_.at_sensor(at, collection_.sensor_gather);
         });
     }
 
@@ -220,7 +213,8 @@ private:
             const std::uint8_t here =
                 at.from_above || at.from_below ? ~0 : ~mask(History::indirect);
             if (way_.counted == 0) {
-                gather_where_seen(at, collection_.first_gather & here);
+                if (way_.scatterings == 0) at.but_of = rays_.looks_for;
+                gathers_.where_seen(at, collection_.first_gather & here, way_.path, way_.straight);
                 store(*encounter, collection_.first_deposit & here);
             } else if (collected) {
                 store(*encounter, collection_.second_deposit & here);
@@ -389,83 +383,6 @@ private:
         return samples;
     }
 
-    // What a ray of a bin finds on a patch stands for the next ones as well that come to the patch
-    // straight and with the same weight. Behind other events the rays of a bin spread widely and
-    // their weights differ: there a share of them gathers, chosen beforehand.
-    void gather_where_seen(const GatherPoint& at, std::uint8_t histories) {
-        if (way_.path.hero_only) return gather(at, histories, way_.path.weight);
-        if (!way_.straight) {
-            if (specular_gather_weight_ > 0.0f) {
-                gather(at, histories, specular_gather_weight_ * way_.path.weight);
-            }
-            return;
-        }
-        if (meter_ && std::holds_alternative<Diffuse>(at.bsdf)) {
-            return gather_by_meter(at, histories);
-        }
-        if (rays_.per_gather == 1) return gather(at, histories, way_.path.weight);
-        const std::uint32_t patch = kernel_patch(phase_.stage, at.point);
-        const bool above = at.wo.z() > 0.0;
-        auto seen = std::find_if(seen_.begin(), seen_.end(), [&](const Seen& s) {
-            return s.patch == patch && s.above == above && (s.weight == way_.path.weight).all();
-        });
-        if (seen == seen_.end()) {
-            seen_.push_back({patch, above, 0, at.point.position, way_.path.weight, {}});
-            seen = seen_.end() - 1;
-        }
-        if (seen->rays_left == 0) {
-            seen->rays_left = rays_.per_gather;
-            seen->gathered = gathered(at, histories);
-        }
-        --seen->rays_left;
-        add(seen->gathered, way_.path.weight);
-    }
-
-    // Many rays of a meter see nearly the same point: what one finds stands for the next ones that
-    // come close to it, by a tenth of the narrowest kernel. That adds about a hundredth to a bias
-    // which is small there.
-    void gather_by_meter(const GatherPoint& at, std::uint8_t histories) {
-        constexpr double near = 0.1;
-        const std::uint32_t patch = kernel_patch(phase_.stage, at.point);
-        const bool above = at.wo.z() > 0.0;
-        const auto radius_m = [&](const ForwardMap& map, const Radii& radii) {
-            return map.empty() ? infinity : radii[patch];
-        };
-        const double near_m = near * std::min(radius_m(maps_.caustic, maps_.caustic_radii),
-                                              radius_m(maps_.indirect, maps_.indirect_radii));
-        if (seen_.empty() || seen_[0].patch != patch || seen_[0].above != above ||
-            (seen_[0].position - at.point.position).squaredNorm() > near_m * near_m) {
-            seen_.assign(1, {patch, above, 0, at.point.position, way_.path.weight, {}});
-            seen_[0].gathered = gathered(at, histories);
-        }
-        add(seen_[0].gathered, way_.path.weight);
-    }
-
-    void gather(const GatherPoint& at, std::uint8_t histories, const Lanes& weight) {
-        add(gathered(at, histories), weight);
-    }
-
-    Gathered gathered(const GatherPoint& at, std::uint8_t histories) {
-        GatherPoint own = at;
-        own.tells_steps = !camera_rays_;
-        if (way_.scatterings == 0) own.but_of = rays_.looks_for;
-        const ForwardMaps::Found found =
-            maps_.gather(phase_, own, histories, rays_.kernel_scale, rays_.barriers);
-        if (found.cut) ++cut_kernels_;
-        if (camera_rays_) kernel_bias_ += phase_.luminous(way_.path.weight * found.indirect_bias);
-        return found.light;
-    }
-
-    void add(const Gathered& gathered, const Lanes& weight) {
-        readings_.add(phase_, bin_, weight * gathered.radiance, weight * gathered.bias);
-        if (camera_rays_) return;
-        const auto luminous = [&](const PerAxis& moment) {
-            return Vec3(phase_.luminous(weight * moment[0]), phase_.luminous(weight * moment[1]),
-                        phase_.luminous(weight * moment[2]));
-        };
-        readings_.add_steps(bin_, luminous(gathered.slope), luminous(gathered.step));
-    }
-
     void store(const Encounter& encounter, std::uint8_t accepts) {
         if (!accepts) return;
         stored_.push_back({.point = encounter.point,
@@ -483,30 +400,17 @@ private:
     const Phase& phase_;
     const Collection& collection_;
     const SensorPlanes& planes_;
-    const ForwardMaps& maps_;
     PhaseReadings& readings_;
     BackwardTally& tally_;
+    BinGathers gathers_;
     std::vector<BackwardPhoton>& stored_;
 
     Way way_;
     std::uint32_t bin_ = 0;
-    BinRays rays_{};            // of the bin
-    int cut_kernels_ = 0;       // by barriers, of those of a ray
-    double kernel_bias_ = 0.0;  // of what a ray of a camera gathered from the map of indirect light
+    BinRays rays_{};                         // of the bin
     std::optional<CameraRays> camera_rays_;  // of a camera
-    bool meter_ = false;
-    MediumStack media_of_observer_;  // where the rays of the present bin start
-    std::vector<Way> branches_;      // before the first scattering event, still to be followed
-    struct Seen {
-        std::uint32_t patch;
-        bool above;
-        std::uint32_t rays_left;
-        Vec3 position;
-        Lanes weight;
-        Gathered gathered;
-    };
-    std::vector<Seen, Eigen::aligned_allocator<Seen>> seen_;  // by the rays of the bin
-    float specular_gather_weight_ = 1.0f;  // 0: the ray does not gather behind specular events
+    MediumStack media_of_observer_;          // where the rays of the present bin start
+    std::vector<Way> branches_;  // before the first scattering event, still to be followed
 };
 
 }  // namespace

@@ -1,0 +1,61 @@
+// What the rays of a bin gather from the forward maps, each by itself or one for some.
+#pragma once
+
+#include <vector>
+
+#include "optics/transport/backward_rays.h"
+#include "optics/transport/forward_maps.h"
+#include "optics/transport/readings.h"
+
+namespace lucerna::optics {
+
+/// Adds to the readings what the rays of one observer gather, bin after bin.
+class BinGathers {
+public:
+    BinGathers(const Phase& phase, const ObserverBins& bins, const ForwardMaps& maps,
+               PhaseReadings& readings);
+
+    /// @param bin  among the bins of all observers.
+    void start(std::uint32_t bin, const BinRays& rays);
+    /// @param ray  from 0 to the number of rays of the bin.
+    void next_ray(std::uint32_t ray);
+
+    /// Where a ray meets its first scattering event.
+    /// @param histories  of the photons, or-ed.
+    /// @param straight   whether the ray has come without any event.
+    void where_seen(const GatherPoint& at, std::uint8_t histories, const Path& path, bool straight);
+    /// At an illuminance point, for all of its rays; photons there carry X, Y, Z: see Photon.
+    void at_sensor(const GatherPoint& at, std::uint8_t histories);
+
+    /// Of the luminance that the ray gathered from the map of indirect light; of cameras only.
+    double kernel_bias() const { return kernel_bias_; }
+    /// Of the ray: number of kernels that barriers cut.
+    int cut_kernels() const { return cut_kernels_; }
+
+private:
+    struct Seen {
+        std::uint32_t patch;
+        bool above;
+        std::uint32_t rays_left;
+        Vec3 position;
+        Lanes weight;
+        Gathered gathered;
+    };
+    void by_meter(const GatherPoint& at, std::uint8_t histories, const Lanes& weight);
+    Gathered gathered(const GatherPoint& at, std::uint8_t histories, const Lanes& weight);
+    void add(const Gathered& gathered, const Lanes& weight);
+
+    const Phase& phase_;
+    const ForwardMaps& maps_;
+    PhaseReadings& readings_;
+    bool camera_, meter_;
+
+    std::uint32_t bin_ = 0;
+    BinRays rays_{};                                          // of the bin
+    std::vector<Seen, Eigen::aligned_allocator<Seen>> seen_;  // by the rays of the bin
+    float specular_weight_ = 1.0f;  // 0: the ray does not gather behind specular events
+    int cut_kernels_ = 0;
+    double kernel_bias_ = 0.0;
+};
+
+}  // namespace lucerna::optics

@@ -68,6 +68,24 @@ TEST_CASE("Materials arrive with their numbers", "[unit]") {
     CHECK_FALSE(object(scene, "gate").interior);
 }
 
+TEST_CASE("A mixture has what scatters before what is specular, whatever the file's order",
+          "[unit]") {
+    std::string text = replaced(good_scene, "type: conductor, n: 2.5, k: 3.4, roughness: 0.3",
+                                "type: mirror, reflectance: 0.9");
+    text = replaced(text, "{weight: 0.9, material: white}, {weight: 0.1, material: steel}",
+                    "{weight: 0.1, material: steel}, {weight: 0.9, material: white}");
+    text = replaced(text, "  - name: floor\n    material: white",
+                    "  - name: floor\n    material: varnish");
+    const SceneFile scene = read_scene_text(text);
+    const auto& bsdfs = scene.parts.bsdfs;
+    const auto& varnish = std::get<Mixture>(bsdfs[object(scene, "floor").front]);
+    REQUIRE(varnish.components.size() == 2);
+    CHECK(varnish.components[0].weight == 0.9);
+    CHECK(std::holds_alternative<Diffuse>(bsdfs[varnish.components[0].bsdf]));
+    CHECK(varnish.components[1].weight == 0.1);
+    CHECK(std::holds_alternative<Mirror>(bsdfs[varnish.components[1].bsdf]));
+}
+
 TEST_CASE("Absorption by transmittance and thickness, and by k", "[analytic]") {
     const auto absorption = [](const std::string& index, const std::string& value) {
         std::string text = replaced(good_scene, "absorption: 0.3 1/m", "absorption: " + value);

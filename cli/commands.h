@@ -74,11 +74,13 @@ ExitCode bench(const BenchOptions& options);
 struct ValidateOptions {
     std::vector<std::string> cases;  ///< ids, families or patterns; none: all
     bool list = false;               ///< only say which there are
+    std::optional<std::uint32_t>
+        draw;  ///< cases per family, drawn by `seed`, in place of the fixed
     std::size_t seeds = 1;
     std::uint64_t seed = 1;
     std::optional<int> threads;
     std::optional<double> accuracy;        ///< to stop each run at, in place of a fixed effort
-    std::optional<std::uint32_t> phases;   ///< of each run, in place of the case's own
+    std::optional<std::uint32_t> phases;   ///< of each run; with an accuracy, the most of them
     std::optional<optics::Method> method;  ///< in place of the case's own
     std::optional<std::filesystem::path> output;  ///< folder of validation.json and .html
 };

@@ -167,6 +167,10 @@ struct CommandLine {
         validate_command->add_option("CASE", validate.cases,
                                      "Cases: ids, families, or patterns such as 'furnace/*' [all]");
         validate_command->add_flag("--list", validate.list, "Only say which cases there are");
+        validate_command
+            ->add_option("--draw", validate.draw,
+                         "Cases to draw per family, by the seed, in place of the fixed ones")
+            ->check(CLI::PositiveNumber);
         validate_command->add_option("--seeds", validate.seeds, "Runs per case, for coverage [1]")
             ->check(CLI::PositiveNumber);
         validate_command->add_option("--seed", validate.seed, "Seed of the first run [1]")
@@ -180,7 +184,9 @@ struct CommandLine {
                                   "Stop each run at this uncertainty [a fixed effort per case]")
             ->type_name("PERCENT");
         validate_command
-            ->add_option("--phases", validate.phases, "Phases of each run [those of the case]")
+            ->add_option(
+                "--phases", validate.phases,
+                "Phases of each run, or with --accuracy the most of them [those of the case]")
             ->check(CLI::PositiveNumber);
         validate_command->add_option("--method", validate.method, "Estimators [those of the case]")
             ->transform(CLI::CheckedTransformer(io::methods()));

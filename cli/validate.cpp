@@ -16,8 +16,11 @@
 namespace lucerna::cli {
 
 ExitCode validate(const ValidateOptions& options) {
+    const auto families = validation::families_for(options.cases);
     const std::vector<validation::Case> cases = validation::selected(
-        validation::cases_of(validation::families_for(options.cases)), options.cases);
+        options.draw ? validation::drawn_cases(families, *options.draw, options.seed)
+                     : validation::cases_of(families),
+        options.cases);
     if (options.list) {
         fmt::print("{}", validation::list_text(cases));
         return done;
@@ -29,6 +32,12 @@ ExitCode validate(const ValidateOptions& options) {
     plan.seeds = options.seeds;
     plan.accuracy = options.accuracy;
     plan.phases = options.phases;
+    if (options.draw && !plan.accuracy && !plan.phases) {
+        // Nobody chose an effort for what is drawn; some of it is too faint ever to be that
+        // accurate.
+        plan.accuracy = 0.01;
+        plan.phases = 256;
+    }
     plan.method = options.method;
     plan.threads = options.threads.value_or(hardware_threads());
     const bool terminal = ::isatty(STDERR_FILENO) == 1;

@@ -24,11 +24,11 @@ Run run_case(const Case& own, std::uint64_t seed, const RunPlan& plan) {
     settings.seed = seed;
     settings.threads = 1;
     if (plan.method) settings.method = *plan.method;
-    if (plan.phases) settings.max_phases = plan.phases;
     if (plan.accuracy) {
         settings.sensor_accuracy = settings.image_accuracy = plan.accuracy;
         settings.max_phases = std::nullopt;
     }
+    if (plan.phases) settings.max_phases = plan.phases;
     const auto start = std::chrono::steady_clock::now();
     const optics::Result result = optics::simulate(own.scene, settings);
     Run run{

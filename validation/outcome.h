@@ -53,7 +53,8 @@ struct RunPlan {
     /// Instead of a fixed number of phases: until U of all sensors and delta of all images is at
     /// most this share of the value.
     std::optional<double> accuracy = std::nullopt;
-    std::optional<std::uint32_t> phases = std::nullopt;   ///< in place of the case's own
+    /// In place of the case's own; with an accuracy, the most that a run may take.
+    std::optional<std::uint32_t> phases = std::nullopt;
     std::optional<optics::Method> method = std::nullopt;  ///< in place of the case's own
 };
 

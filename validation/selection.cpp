@@ -66,6 +66,24 @@ std::vector<Case> cases_of(const std::vector<Family>& families) {
     return cases;
 }
 
+std::vector<Case> drawn_cases(const std::vector<Family>& families, std::uint32_t count,
+                              std::uint64_t seed) {
+    std::vector<Family> able;
+    std::ranges::copy_if(families, std::back_inserter(able),
+                         [](const Family& family) { return family.drawn != nullptr; });
+    // Beside a fold or a shadow U is what it is; that it holds is the point.
+    constexpr double detects_relative = 0.3;
+    std::vector<Case> cases(able.size() * count);
+    for_each_block(cases.size(), hardware_threads(), [&](std::size_t i) {
+        const auto number = static_cast<std::uint32_t>(i % count + 1);
+        const Family& family = able[i / count];
+        Draw draw(seed, number);
+        cases[i] = family.drawn(fmt::format("{}/drawn-{}", family.name, number), draw);
+        for (Check& check : cases[i].checks) check.detects_relative = detects_relative;
+    });
+    return cases;
+}
+
 std::vector<Case> selected(std::vector<Case> cases, const std::vector<std::string>& patterns) {
     std::vector<std::string> names;
     for (const Case& own : cases) {

@@ -1,6 +1,7 @@
 // Which cases the user means.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,11 @@ std::vector<Family> families_for(const std::vector<std::string>& patterns);
 
 /// The cases of families, in their order, with their truths, which are worked out on all threads.
 std::vector<Case> cases_of(const std::vector<Family>& families);
+
+/// Cases 1 to `count` of each family that can draw some; their truths as above. Same seed, same
+/// cases.
+std::vector<Case> drawn_cases(const std::vector<Family>& families, std::uint32_t count,
+                              std::uint64_t seed);
 
 /// The cases that at least one pattern means, in their own order; all for no pattern. Throws
 /// InputError, with the nearest known name, for a pattern that means none.

@@ -115,7 +115,16 @@ void choose_radii(const TraceContext& context, const Settings& settings, Plan& p
     choose_caustic_radii(of(History::caustic));
     if (plan.gathers(stage, context.planes, History::caustic)) {
         const SeenPoints seen = seen_points(phase, context, settings);
-        plan.caustic_guide = guide_of_caustics(phase, context, seen, plan.caustic_radii, photons);
+        const auto learn_guide = [&] {
+            plan.caustic_guide =
+                guide_of_caustics(phase, context, seen, plan.caustic_radii, photons);
+        };
+        learn_guide();
+        // Beside bright caustics the kernels of a place that fit them find nothing of faint ones.
+        if (plan.caustic_guide.empty() &&
+            widen_around_sensors(context, settings, seen, rays_to_learn_widths, plan)) {
+            learn_guide();
+        }
         if (!plan.caustic_guide.empty()) {
             const Emission guided(phase, RandomPurpose::pilot, plan.caustic_guide);
             choose_caustic_radii({trace_photons(phase, context, guided, Reach::first_scattering,
@@ -125,8 +134,7 @@ void choose_radii(const TraceContext& context, const Settings& settings, Plan& p
             // Without dispersion these are spread so evenly that another guide would do harm.
             if (stage.disperses() &&
                 widen_around_sensors(context, settings, seen, rays_to_learn_widths, plan)) {
-                plan.caustic_guide =
-                    guide_of_caustics(phase, context, seen, plan.caustic_radii, photons);
+                learn_guide();
             }
             widen_around_sensors(context, settings, seen, rays_to_widen, plan);
         }

@@ -115,7 +115,7 @@ std::vector<Error> errors_of(const std::vector<Step>& steps, double at_points,
 }
 
 // The radius of least error at the points after as many phases as it takes to know them to the
-// accuracy, 0 without photons.
+// accuracy; without photons the widest, which finds rare ones soonest.
 // @param pilots_per_phase  rays of a pilot over those of a phase.
 double radius_of_least_error(const std::vector<Arrival>& one, const std::vector<Arrival>& other,
                              const std::vector<Vec3>& points, double limit_m, double accuracy,
@@ -124,7 +124,7 @@ double radius_of_least_error(const std::vector<Arrival>& one, const std::vector<
     // that ends them.
     constexpr double least_phases = 19.0, most_phases = 256.0;
     const std::vector<Step> steps = steps_of_radius(one, other, points, limit_m);
-    if (!(steps[0].flux > 0.0)) return 0.0;
+    if (!(steps[0].flux > 0.0)) return limit_m;
     const double at_points = irradiance_at_points(steps);
     const double asked_square = square(accuracy * at_points);
     const std::vector<Error> errors = errors_of(steps, at_points, pilots_per_phase);
@@ -164,7 +164,7 @@ Radii widened_around(const Stage& stage, const SensorPlanes& planes, const Radii
         const double radius_m =
             radius_of_least_error(of_one[patch], of_other[patch], positions, limit_m, accuracy,
                                   static_cast<double>(one.rays) / rays);
-        return radius_m > 0.0 ? std::max(least * radii[patch], radius_m) : radii[patch];
+        return std::max(least * radii[patch], radius_m);
     };
     // No kernel reaches the wall beside its point, so that the search starts there.
     std::vector<double> clearances_m(planes.point_count());

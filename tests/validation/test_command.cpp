@@ -35,6 +35,19 @@ TEST_CASE("Daylight through a pane and past an overhang agrees with its truth", 
               .exit_code == 0);
 }
 
+TEST_CASE("validate draws cases, and the same again by their seed", "[validation]") {
+    const auto outcome = run_program({"validate", "slab", "mirrors/drawn-1", "--draw", "1",
+                                      "--seed", "3", "--accuracy", "5%", "--threads", "1"});
+    CHECK(outcome.exit_code == 0);
+    CHECK_THAT(outcome.out, Contains("slab/drawn-1") && Contains("2 of 2 cases passed"));
+    CHECK_THAT(run_program({"validate", "slab/drawn-2", "--draw", "1"}).err,
+               Contains("slab/drawn-2"));
+}
+
+TEST_CASE("Faint light beside a bright caustic is found", "[validation]") {
+    CHECK(run_program({"validate", "ball_lens/faint-ring", "--threads", "1"}).exit_code == 0);
+}
+
 TEST_CASE("validate runs a case and writes table, data and page", "[validation]") {
     const io::ScratchFolder folder;
     const std::string results = folder / "results";

@@ -1,34 +1,64 @@
 // Closed diffuse boxes of six reflectances, lit by a luminous half of the ceiling.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include "validation/cases.h"
 #include "validation/cases/panel_room.h"
 
 namespace lucerna::validation {
 namespace {
 
+// @param points  in shares of the size.
 Case box(const std::string& id, const std::string& title, const Vec3& size,
-         const std::array<double, 6>& rho, const optics::Settings& settings) {
+         const std::array<double, 6>& rho, double luminous_share,
+         const std::vector<WallPoint>& points, const optics::Settings& settings) {
     const double x = size.x(), y = size.y(), z = size.z();
+    const double edge = luminous_share * y;
     const std::vector<NamedPanel> panels{
         {"wall -x", {0, 0.0, {0.0, y}, {0.0, z}, rho[0], 0.0}},
         {"wall +x", {0, x, {0.0, y}, {0.0, z}, rho[1], 0.0}},
         {"wall -y", {1, 0.0, {0.0, z}, {0.0, x}, rho[2], 0.0}},
         {"wall +y", {1, y, {0.0, z}, {0.0, x}, rho[3], 0.0}},
         {"floor", {2, 0.0, {0.0, x}, {0.0, y}, rho[4], 0.0}},
-        {"luminous half of ceiling", {2, z, {0.0, x}, {0.0, y / 2}, rho[5], 100.0}},
-        {"dark half of ceiling", {2, z, {0.0, x}, {y / 2, y}, rho[5], 0.0}}};
-    const std::vector<WallPoint> points{{"floor", {0.3 * x, 0.31 * y, lift_m}, {0, 0, 1}},
-                                        {"wall -x", {lift_m, 0.7 * y, 0.6 * z}, {1, 0, 0}},
-                                        {"wall +y", {0.4 * x, y - lift_m, 0.4 * z}, {0, -1, 0}}};
-    return room_case(id, title, panels, points, settings);
+        {"luminous part of ceiling", {2, z, {0.0, x}, {0.0, edge}, rho[5], 100.0}},
+        {"dark part of ceiling", {2, z, {0.0, x}, {edge, y}, rho[5], 0.0}}};
+    std::vector<WallPoint> at = points;
+    for (WallPoint& point : at) {
+        point.position = point.position.cwiseProduct(size) + lift_m * point.normal;
+    }
+    return room_case(id, title, panels, at, settings);
 }
 
 }  // namespace
 
 std::vector<Case> closed_box_cases() {
+    const std::vector<WallPoint> points{{"floor", {0.3, 0.31, 0.0}, {0, 0, 1}},
+                                        {"wall -x", {0.0, 0.7, 0.6}, {1, 0, 0}},
+                                        {"wall +y", {0.4, 1.0, 0.4}, {0, -1, 0}}};
     return {box("closed_box/grey", "1 x 1.3 x 0.8 m, reflectances 0.1 to 0.8", {1.0, 1.3, 0.8},
-                {0.3, 0.8, 0.5, 0.1, 0.65, 0.6}, effort(96, 12000)),
+                {0.3, 0.8, 0.5, 0.1, 0.65, 0.6}, 0.5, points, effort(96, 12000)),
             box("closed_box/bright", "2 x 1 x 1 m, reflectances 0.5 to 0.9", {2.0, 1.0, 1.0},
-                {0.9, 0.5, 0.85, 0.6, 0.7, 0.8}, effort(96, 8000))};
+                {0.9, 0.5, 0.85, 0.6, 0.7, 0.8}, 0.5, points, effort(96, 8000))};
+}
+
+Case drawn_closed_box(const std::string& id, Draw& draw) {
+    const Vec3 size(draw.log_between(0.5, 2.0), draw.log_between(0.5, 2.0),
+                    draw.log_between(0.5, 2.0));
+    std::array<double, 6> rho{};
+    for (double& of_wall : rho) of_wall = draw.between(0.05, 0.95);
+    const double luminous_share = draw.between(0.3, 0.7);
+    std::vector<WallPoint> points;
+    for (const Vec3& normal : {Vec3(1, 0, 0), Vec3(0, -1, 0), Vec3(0, 0, 1)}) {
+        Vec3 position(draw.between(0.1, 0.9), draw.between(0.1, 0.9), draw.between(0.1, 0.9));
+        for (int axis = 0; axis < 3; ++axis) {
+            if (normal[axis] != 0.0) position[axis] = normal[axis] > 0.0 ? 0.0 : 1.0;
+        }
+        points.push_back({fmt::format("point {}", points.size() + 1), position, normal});
+    }
+    return box(id,
+               fmt::format("{:.2f} x {:.2f} x {:.2f} m, reflectances {:.2f}", size.x(), size.y(),
+                           size.z(), fmt::join(rho, ", ")),
+               size, rho, luminous_share, points, {});
 }
 
 }  // namespace lucerna::validation

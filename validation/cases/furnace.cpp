@@ -41,8 +41,7 @@ std::vector<Check> checks(double rho, const std::vector<Look>& looks, int points
 }
 
 Case shell(const std::string& id, const std::string& title, const Shape& shape,
-           const std::vector<Look>& looks) {
-    constexpr double rho = 0.7;
+           const std::vector<Look>& looks, double rho = 0.7) {
     SceneBuilder scene;
     scene.area_light(scene.object("shell", shape, scene.diffuse(rho)), emitted, true);
     for (const Look& look : looks) scene.meter(look.from, look.at, 0.5);
@@ -89,6 +88,42 @@ std::vector<Case> furnace_cases() {
               {{"inner wall", {0.4, 0.15, 0.35}, {0.0, 0.15, 0.35}},
                {"outer wall", {0.4, 0.15, 0.35}, {0.4, 0.45, 0.35}}}),
     };
+}
+
+Case drawn_furnace(const std::string& id, Draw& draw) {
+    const double rho = draw.between(0.1, 0.95);
+    const Vec3 start(draw.between(-1.0, 1.0), draw.between(-1.0, 1.0), draw.between(-1.0, 1.0));
+    const Vec3 axis = draw.direction(Vec3::UnitZ(), pi);
+    const double radius_m = draw.log_between(0.05, 5.0);
+    const double length_m = radius_m * draw.log_between(0.3, 5.0);
+    // From a point on the axis or, in a tube, halfway between its walls, anywhere.
+    const double hole = draw.between(0.2, 0.7);
+    const int kind = static_cast<int>(draw.between(0.0, 4.0));
+    const Vec3 aside = axis.unitOrthogonal();
+    const Vec3 middle = start + 0.5 * length_m * axis;
+    const auto looks = [&](const Vec3& from) {
+        return std::vector<Look>{{"one way", from, from + draw.direction(axis, pi)},
+                                 {"another way", from, from + draw.direction(axis, pi)}};
+    };
+    const auto title = [&](const char* shape) {
+        return fmt::format("{} of {:.3g} m, reflectance {:.3f}, seen from within", shape, radius_m,
+                           rho);
+    };
+    if (kind == 0) return shell(id, title("sphere"), Sphere{start, radius_m}, looks(start), rho);
+    const Vec3 end = start + length_m * axis;
+    if (kind == 1) {
+        return shell(id, title("cylinder"), Cylinder{start, end, radius_m}, looks(middle), rho);
+    }
+    if (kind == 2) {
+        const Vec3 from = middle + 0.5 * (1.0 + hole) * radius_m * aside;
+        return shell(id, title("tube"), Tube{start, end, radius_m, hole * radius_m}, looks(from),
+                     rho);
+    }
+    Placement place = Placement::Identity();
+    place.translate(start);
+    place.rotate(Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), axis));
+    const Vec3 size(radius_m, hole * radius_m, length_m);
+    return shell(id, title("box"), Box{place, size}, looks(place * Vec3(0.5 * size)), rho);
 }
 
 }  // namespace lucerna::validation

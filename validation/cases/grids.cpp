@@ -57,11 +57,12 @@ Case grid_case(const std::string& id, const std::string& title, const std::strin
              check("Ud", "illuminance diversity", "1", least / greatest, 2.0 * truth_error, 4)}};
 }
 
+const Rectangle level_lamp{{-0.4, -0.5, 1.5}, {0.0, 1.0, 0.0}, {0.8, 0.0, 0.0}};
+
 // Corners of the symmetric grid are equally dark, so that each may turn out the least.
-Case below_rectangle(const std::string& id, const std::string& title, const Vec3& corner, int side,
-                     const optics::Settings& settings) {
+Case below_rectangle(const std::string& id, const std::string& title, const Rectangle& lamp,
+                     const Vec3& corner, int side, const optics::Settings& settings) {
     constexpr double luminance = 2000.0;  // cd/m2
-    const Rectangle lamp{{-0.4, -0.5, 1.5}, {0.0, 1.0, 0.0}, {0.8, 0.0, 0.0}};
     SceneBuilder scene;
     scene.area_light(scene.object("lamp", lamp, scene.black()), luminance);
     return grid_case(
@@ -127,11 +128,22 @@ Case closed_box() {
 
 std::vector<Case> grid_cases() {
     return {below_rectangle("grids/rectangle", "5 x 5 points beside a luminous rectangle",
-                            {-0.3, -0.2, 0.0}, 5, effort(64, 100)),
+                            level_lamp, {-0.3, -0.2, 0.0}, 5, effort(64, 100)),
             below_rectangle("grids/symmetric",
                             "4 x 4 points around the foot of a luminous rectangle: four are least",
-                            {-1.0, -1.0, 0.0}, 4, effort(64, 100)),
+                            level_lamp, {-1.0, -1.0, 0.0}, 4, effort(64, 100)),
             beside_mirror(), closed_box()};
+}
+
+Case drawn_grid(const std::string& id, Draw& draw) {
+    const Rectangle lamp{
+        {draw.between(-1.0, 1.0), draw.between(-1.0, 1.0), draw.log_between(0.5, 4.0)},
+        {0.0, draw.log_between(0.05, 2.0), 0.0},
+        {draw.log_between(0.05, 2.0), 0.0, 0.0}};
+    const int side = static_cast<int>(draw.between(2.0, 8.0));
+    return below_rectangle(id, fmt::format("{0} x {0} points below a luminous rectangle", side),
+                           lamp, {draw.between(-1.5, -0.5), draw.between(-1.5, -0.5), 0.0}, side,
+                           {});
 }
 
 }  // namespace lucerna::validation

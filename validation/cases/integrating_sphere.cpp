@@ -15,15 +15,16 @@ constexpr double radius_m = 0.5;
 const double wall_area_m2 = 4.0 * pi * radius_m * radius_m;
 
 // E = Phi cos / (4 pi d^2) + Phi rho / (A (1 - rho)), and L = rho E / pi.
-Case off_centre(const std::string& id, double rho, std::uint32_t phases, std::uint32_t rays) {
+// @param lamp_m, point_m  heights above the centre; the point is the lower one.
+Case off_centre(const std::string& id, double rho, double lamp_m, double point_m,
+                double half_angle_rad, const optics::Settings& settings) {
     SceneBuilder scene;
     const ObjectId wall = scene.object("wall", Sphere{Vec3::Zero(), radius_m}, scene.diffuse(rho));
-    const Vec3 lamp(0.0, 0.0, 0.2);
+    const Vec3 lamp(0.0, 0.0, lamp_m);
     scene.light("lamp", PointLight{lamp}, lamp_flux_lm);
     scene.receiver(wall);
-    constexpr double half_angle_rad = 0.4;
     scene.meter(Vec3::Zero(), {0.0, 0.0, -1.0}, half_angle_rad);  // at the far pole
-    const Vec3 point(0.0, 0.0, -0.3);
+    const Vec3 point(0.0, 0.0, point_m);
     scene.points({point}, Vec3::UnitZ());
 
     const double reflected = lamp_flux_lm * rho / (wall_area_m2 * (1.0 - rho));
@@ -58,7 +59,7 @@ Case off_centre(const std::string& id, double rho, std::uint32_t phases, std::ui
         "E = Phi cos/(4 pi d^2) + Phi rho/(A (1 - rho)): the form factor between all pieces of a "
         "sphere is the same, the rest is an energy balance; field at the point by quadrature",
         scene.parts,
-        effort(phases, rays),
+        settings,
         {{"wall at the far pole", "luminance", "cd/m2", luminance, 0.0, sensor(0), 0.01},
          {"point within", "illuminance", "lx", direct + field, 1e-6 * field, sensor(1), 0.01},
          {"all of the wall", "luminous flux", "lm", lamp_flux_lm / (1.0 - rho), 0.0, sensor(3),
@@ -97,10 +98,17 @@ Case lamp_in_the_centre(const std::string& id, double rho, double lamp_rho) {
 }  // namespace
 
 std::vector<Case> integrating_sphere_cases() {
-    return {off_centre("integrating_sphere/0.5", 0.5, 96, 6000),
-            off_centre("integrating_sphere/0.95", 0.95, 96, 3000),
+    return {off_centre("integrating_sphere/0.5", 0.5, 0.2, -0.3, 0.4, effort(96, 6000)),
+            off_centre("integrating_sphere/0.95", 0.95, 0.2, -0.3, 0.4, effort(96, 3000)),
             lamp_in_the_centre("integrating_sphere/black-lamp", 0.9, 0.0),
             lamp_in_the_centre("integrating_sphere/grey-lamp", 0.9, 0.4)};
+}
+
+Case drawn_integrating_sphere(const std::string& id, Draw& draw) {
+    const double rho = draw.between(0.1, 0.97);
+    const double lamp_m = draw.between(-0.6, 0.8) * radius_m;
+    const double point_m = draw.between(-0.95 * radius_m, lamp_m - 0.1 * radius_m);
+    return off_centre(id, rho, lamp_m, point_m, draw.between(0.05, 0.8), {});
 }
 
 }  // namespace lucerna::validation

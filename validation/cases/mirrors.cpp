@@ -81,7 +81,8 @@ void add_floor_and_mirror(SceneBuilder& scene, double x_m, double rho) {
     scene.object("mirror", Rectangle{{x_m, -4, 0}, {0, 0, 4}, {0, 8, 0}}, scene.mirror(rho));
 }
 
-Case one_mirror(const std::string& id, const Lamp& lamp, double rho) {
+Case one_mirror(const std::string& id, const Lamp& lamp, double rho,
+                const optics::Settings& settings = effort(32, 40000, 4)) {
     constexpr double mirror_x_m = 1.2;
     SceneBuilder scene;
     add_floor_and_mirror(scene, mirror_x_m, rho);
@@ -89,16 +90,14 @@ Case one_mirror(const std::string& id, const Lamp& lamp, double rho) {
     Check check = mean_luminance(scene, {0.75, 0.0, 0.0}, [&](const Vec3& x) {
         return lamp.illuminance(x, 1.0, 0.0) + rho * lamp.illuminance(x, -1.0, 2.0 * mirror_x_m);
     });
-    return {id,
-            fmt::format("{} before a mirror of reflectance {:g}", lamp.name, rho),
-            source,
-            scene.parts,
-            effort(32, 40000, 4),
-            {check}};
+    return {id,       fmt::format("{} before a mirror of reflectance {:g}", lamp.name, rho),
+            source,   scene.parts,
+            settings, {check}};
 }
 
 // Mirrors at x = 0 and x = a. Images at 2 n a + x by |2 n| reflections, at 2 n a - x by |2 n - 1|.
-Case two_mirrors(const std::string& id, const Lamp& lamp, double rho) {
+Case two_mirrors(const std::string& id, const Lamp& lamp, double rho,
+                 const optics::Settings& settings = effort(32, 30000, 4)) {
     constexpr double apart_m = 1.2;
     SceneBuilder scene;
     add_floor_and_mirror(scene, apart_m, rho);
@@ -117,7 +116,7 @@ Case two_mirrors(const std::string& id, const Lamp& lamp, double rho) {
             fmt::format("{} between two parallel mirrors of reflectance {:g}", lamp.name, rho),
             source,
             scene.parts,
-            effort(32, 30000, 4),
+            settings,
             {check}};
 }
 
@@ -130,6 +129,22 @@ std::vector<Case> mirrors_cases() {
             two_mirrors("mirrors/two-point", point, 0.9),
             two_mirrors("mirrors/two-rectangle", panel, 0.9),
             two_mirrors("mirrors/two-weak", point, 0.5)};
+}
+
+Case drawn_mirrors(const std::string& id, Draw& draw) {
+    Lamp lamp{"point source",
+              {{draw.between(0.05, 1.15), draw.between(-0.5, 0.5), draw.between(0.5, 2.0)},
+               Vec3::Zero(),
+               Vec3::Zero()}};
+    if (draw.happens(0.5)) {
+        lamp.name = "luminous rectangle";
+        // Out of the camera's view.
+        lamp.shape.corner.x() = draw.between(0.02, 0.2);
+        lamp.shape.edge_u = draw.between(0.1, 0.8) * Vec3::UnitY();
+        lamp.shape.edge_v = draw.between(0.05, 0.2) * Vec3::UnitX();
+    }
+    const double rho = draw.between(0.1, 0.9);
+    return draw.happens(0.5) ? one_mirror(id, lamp, rho, {}) : two_mirrors(id, lamp, rho, {});
 }
 
 }  // namespace lucerna::validation

@@ -9,7 +9,12 @@ namespace {
 
 using namespace optics;
 
-Case beside(const truth::PaneShadow& shadow, const std::string& id) {
+struct Point {
+    double from_shadow_m, detects;
+};
+
+Case beside(const truth::PaneShadow& shadow, const std::string& id,
+            const std::vector<Point>& points, const optics::Settings& settings) {
     SceneBuilder scene = pane_and_screen(shadow);
     Case result{.id = id,
                 .title = fmt::format(
@@ -20,14 +25,10 @@ Case beside(const truth::PaneShadow& shadow, const std::string& id) {
                     "E = sum of I T sin th / (x dx/dth) over orders of internal reflection, s and "
                     "p apart: Snell's law and conservation of flux",
                 .scene = {},
-                .settings = effort(64, 20000),
+                .settings = settings,
                 .checks = {}};
-    struct Point {
-        double from_shadow_m, detects;
-    };
     std::vector<Vec3> positions;
-    for (const Point& point :
-         {Point{0.005, 0.3}, {0.01, 0.15}, {0.02, 0.1}, {0.05, 0.03}, {0.1, 0.02}}) {
+    for (const Point& point : points) {
         const double from_axis_m = shadow.shadow_edge_m() - point.from_shadow_m;
         positions.emplace_back(from_axis_m, 0.0, lift_m);
         const double value = shadow.illuminance_lx(from_axis_m);
@@ -58,7 +59,26 @@ std::vector<Case> pane_shadow_cases() {
     high.pane_thickness_m = 0.02;
     high.pane_index = 1.6;
     high.screen_height_m = 0.3;
-    return {beside(low, "pane_shadow/low-screen"), beside(high, "pane_shadow/high-screen")};
+    const std::vector<Point> points{
+        {0.005, 0.3}, {0.01, 0.15}, {0.02, 0.1}, {0.05, 0.03}, {0.1, 0.02}};
+    return {beside(low, "pane_shadow/low-screen", points, effort(64, 20000)),
+            beside(high, "pane_shadow/high-screen", points, effort(64, 20000))};
+}
+
+// All within the floor before the screen, and lit by way of the pane.
+Case drawn_pane_shadow(const std::string& id, Draw& draw) {
+    const truth::PaneShadow shadow{.intensity_cd = 100.0,
+                                   .lamp_height_m = draw.between(0.9, 1.4),
+                                   .pane_thickness_m = draw.between(0.002, 0.04),
+                                   .pane_index = draw.between(1.3, 1.8),
+                                   .screen_height_m = draw.between(0.05, 0.4),
+                                   .screen_edge_m = draw.between(0.1, 0.3)};
+    std::vector<Point> points;
+    for (int i = 0; i < 5; ++i) {
+        const double furthest_m = shadow.shadow_edge_m() - 0.02;
+        points.push_back({std::min(draw.log_between(0.005, 0.3), furthest_m), 0.02});
+    }
+    return beside(shadow, id, points, {});
 }
 
 }  // namespace lucerna::validation

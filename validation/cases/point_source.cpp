@@ -1,6 +1,8 @@
 // Point sources: inverse square and cosine law, and a C-gamma table in rotated luminaires.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "validation/cases.h"
 #include "validation/scene_builder.h"
 #include "validation/truth/luminaire.h"
@@ -12,6 +14,7 @@ using namespace optics;
 
 const std::vector<Vec3> floor_points{
     {0.0, 0.0, 0.0}, {1.0, 0.5, 0.0}, {-1.2, 0.3, 0.0}, {0.4, -1.5, 0.0}};
+const Vec3 luminaire_position(0.1, 0.2, 2.0);
 
 Case isotropic() {
     constexpr double intensity = 100.0, height_m = 2.0;  // cd
@@ -42,9 +45,10 @@ Case isotropic() {
             checks};
 }
 
-Case rotated(const std::string& id, double turn_deg, double lift_deg) {
+Case rotated(const std::string& id, double turn_deg, double lift_deg,
+             const optics::Settings& settings = effort(64, 1000)) {
     constexpr double rho = 0.5;
-    const Vec3 position(0.1, 0.2, 2.0);
+    const Vec3& position = luminaire_position;
     const truth::Axes axes = truth::axes(turn_deg, lift_deg);
     Luminaire lamp;
     lamp.position = position;
@@ -81,7 +85,7 @@ Case rotated(const std::string& id, double turn_deg, double lift_deg) {
         "E = I(C, gamma) cos/d^2, I bilinear in the angles (IES LM-63 and EULUMDAT practice), "
         "C and gamma after CIE 121:1996",
         scene.parts,
-        effort(64, 1000),
+        settings,
         checks};
 }
 
@@ -91,6 +95,24 @@ std::vector<Case> point_source_cases() {
     return {isotropic(), rotated("point_source/level", 0.0, 0.0),
             rotated("point_source/turned-25-lifted-15", 25.0, 15.0),
             rotated("point_source/turned-110-lifted-40", 110.0, 40.0)};
+}
+
+Case drawn_point_source(const std::string& id, Draw& draw) {
+    struct Turn {
+        double turn_deg, lift_deg;
+    };
+    const Turn drawn = first_that(
+        [](const Turn& turn) {
+            const truth::Axes axes = truth::axes(turn.turn_deg, turn.lift_deg);
+            return std::ranges::all_of(floor_points, [&](const Vec3& point) {
+                return truth::intensity_toward(axes, (point - luminaire_position).normalized()) >
+                       1.0;
+            });
+        },
+        [&] {
+            return Turn{draw.between(0.0, 360.0), draw.between(-70.0, 70.0)};
+        });
+    return rotated(id, drawn.turn_deg, drawn.lift_deg, {});
 }
 
 }  // namespace lucerna::validation

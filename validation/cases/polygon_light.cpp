@@ -22,26 +22,26 @@ Check illuminance(const std::string& name, const Rectangle& lamp, const Vec3& x,
 }
 
 // Along the floor, and the luminance of the floor at one of the points.
-Case over_a_floor(const std::string& id, const std::string& title, const Rectangle& lamp) {
+// @param points  of the floor; a meter sees the fifth.
+Case over_a_floor(const std::string& id, const std::string& title, const Rectangle& lamp,
+                  const std::vector<Vec3>& points, const optics::Settings& settings) {
     constexpr double rho = 0.4;
     SceneBuilder scene;
     scene.area_light(scene.object("lamp", lamp, scene.black()), luminance);
     scene.object("floor", Rectangle{{-5, -5, 0}, {10, 0, 0}, {0, 10, 0}}, scene.diffuse(rho));
-    std::vector<Vec3> points;
     std::vector<Check> checks;
-    for (const double x : {-2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 2.0, 3.0}) {
-        points.emplace_back(x, 0.3, 0.0);
-        checks.push_back(illuminance(fmt::format("x = {:.1f} m", x), lamp, points.back(),
+    for (const Vec3& point : points) {
+        checks.push_back(illuminance(fmt::format("x = {:.1f} m", point.x()), lamp, point,
                                      Vec3::UnitZ(), checks.size()));
-        checks.back().sweep = {id, "x [m]", x};
+        checks.back().sweep = {id, "x [m]", point.x()};
     }
     scene.points(points, Vec3::UnitZ());
-    scene.meter({0.2, 0.2, 1.0}, points[4], 0.01);
+    scene.meter({0.2, 0.2, 1.0}, points[4], 0.001);
     const double value = rho / pi * checks[4].truth;
-    // The cone is so narrow that the mean over it differs by less than 1e-4.
-    checks.push_back({"floor at x = 0.5 m", "luminance", "cd/m2", value, 1e-4 * value,
-                      sensor(checks.size()), 0.01});
-    return {id, title, polygon_source, scene.parts, effort(128, 100), checks};
+    // The cone is so narrow that the mean over it differs by less than 1e-5 within 4 m.
+    checks.push_back({fmt::format("floor at x = {:.1f} m", points[4].x()), "luminance", "cd/m2",
+                      value, 1e-5 * value, sensor(checks.size()), 0.01});
+    return {id, title, polygon_source, scene.parts, settings, checks};
 }
 
 }  // namespace
@@ -55,8 +55,14 @@ std::vector<Case> polygon_light_cases() {
     SceneBuilder scene;
     scene.area_light(scene.object("lamp", level, scene.black()), luminance);
     scene.points(positions, slanted);
-    return {over_a_floor("polygon_light/level", "level rectangle, 0.8 x 1 m, 1.5 m up", level),
-            over_a_floor("polygon_light/tilted", "tilted rectangle, 0.67 x 1 m", tilted),
+    std::vector<Vec3> on_floor;
+    for (const double x : {-2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 2.0, 3.0}) {
+        on_floor.emplace_back(x, 0.3, 0.0);
+    }
+    return {over_a_floor("polygon_light/level", "level rectangle, 0.8 x 1 m, 1.5 m up", level,
+                         on_floor, effort(128, 100)),
+            over_a_floor("polygon_light/tilted", "tilted rectangle, 0.67 x 1 m", tilted, on_floor,
+                         effort(128, 100)),
             {"polygon_light/horizon",
              "rectangle partly behind the horizon of slanted sensors",
              polygon_source,
@@ -64,6 +70,25 @@ std::vector<Case> polygon_light_cases() {
              effort(128, 100),
              {illuminance("from aside", level, positions[0], slanted, 0),
               illuminance("from below", level, positions[1], slanted, 1)}}};
+}
+
+Case drawn_polygon_light(const std::string& id, Draw& draw) {
+    const Vec3 down = draw.direction(-Vec3::UnitZ(), 1.0);
+    const Vec3 u = draw.log_between(0.05, 1.0) * down.unitOrthogonal();
+    const Vec3 v = draw.log_between(0.05, 1.0) * down.cross(u).normalized();
+    const Rectangle lamp{Vec3(0, 0, draw.between(1.5, 3.0)) - 0.5 * (u + v), u, v};
+    const auto corners = truth::corners(lamp.corner, lamp.edge_u, lamp.edge_v);
+    std::vector<Vec3> points;
+    for (int i = 0; i < 8; ++i) {
+        points.push_back(first_that(
+            // In front of all of the lamp: where its plane is crossed the truth has an edge.
+            [&](const Vec3& x) { return (x - corners[0]).dot(down) > 0.2; },
+            [&] { return Vec3(draw.between(-3.5, 3.5), draw.between(-3.5, 3.5), 0.0); }));
+    }
+    return over_a_floor(id,
+                        fmt::format("rectangle of {:.2f} x {:.2f} m, turned {:.0f} deg from level",
+                                    u.norm(), v.norm(), std::acos(-down.z()) * 180.0 / pi),
+                        lamp, points, {});
 }
 
 }  // namespace lucerna::validation

@@ -34,7 +34,7 @@ Read absorbed_in_glass(std::vector<std::size_t> rest) {
     };
 }
 
-Case rod_case(const std::string& id, const RodGuide& rod, std::uint32_t phases) {
+Case rod_case(const std::string& id, const RodGuide& rod, const optics::Settings& settings) {
     const bool contact = rod.gap_m == 0.0;
     SceneBuilder scene;
     const double start_m = contact ? -0.001 : 0.0;  // glass behind the disk, where no light comes
@@ -73,7 +73,7 @@ Case rod_case(const std::string& id, const RodGuide& rod, std::uint32_t phases) 
             "quadrature over the disk and directions, each reflection followed with its state "
             "of polarisation (Born and Wolf, 7th ed., 1.5.2 and 1.5.4)",
         .scene = {},
-        .settings = effort(phases, 8000),
+        .settings = settings,
         .checks = {}};
     const auto check = [&](const std::string& name, double share, Read read) {
         result.checks.push_back({name, "luminous flux", "lm", lamp_flux_lm * share, truth_error,
@@ -95,12 +95,26 @@ Case rod_case(const std::string& id, const RodGuide& rod, std::uint32_t phases) 
 
 std::vector<Case> rod_guide_cases() {
     return {
-        rod_case("rod_guide/air-clear", {0.01, 0.12, 1.5, 0.0, 0.002, 0.009}, 96),
-        rod_case("rod_guide/air-absorbing", {0.01, 0.3, 1.6, 2.0, 0.004, 0.006}, 96),
-        rod_case("rod_guide/air-leaking", {0.01, 0.1, 1.3, 1.0, 0.004, 0.007}, 128),
-        rod_case("rod_guide/contact-clear", {0.01, 0.1, 1.5, 0.0, 0.0, 0.01}, 96),
-        rod_case("rod_guide/contact-absorbing", {0.008, 0.2, 1.6, 3.0, 0.0, 0.008}, 96),
+        rod_case("rod_guide/air-clear", {0.01, 0.12, 1.5, 0.0, 0.002, 0.009}, effort(96, 8000)),
+        rod_case("rod_guide/air-absorbing", {0.01, 0.3, 1.6, 2.0, 0.004, 0.006}, effort(96, 8000)),
+        rod_case("rod_guide/air-leaking", {0.01, 0.1, 1.3, 1.0, 0.004, 0.007}, effort(128, 8000)),
+        rod_case("rod_guide/contact-clear", {0.01, 0.1, 1.5, 0.0, 0.0, 0.01}, effort(96, 8000)),
+        rod_case("rod_guide/contact-absorbing", {0.008, 0.2, 1.6, 3.0, 0.0, 0.008},
+                 effort(96, 8000)),
     };
+}
+
+Case drawn_rod_guide(const std::string& id, Draw& draw) {
+    const double radius_m = draw.log_between(0.003, 0.02);
+    const double gap_m = draw.happens(0.6) ? draw.between(0.1, 0.6) * radius_m : 0.0;
+    const RodGuide rod{
+        .radius_m = radius_m,
+        .length_m = draw.log_between(4.0, 40.0) * radius_m,
+        .index = draw.between(1.25, 1.75),
+        .absorption_per_m = draw.happens(0.5) ? draw.log_between(0.3, 5.0) : 0.0,
+        .gap_m = gap_m,
+        .source_radius_m = gap_m > 0.0 ? draw.between(0.3, 0.95) * radius_m : radius_m};
+    return rod_case(id, rod, {});
 }
 
 }  // namespace lucerna::validation

@@ -37,7 +37,7 @@ const std::vector<double> smooth_heights{0.5, 0.7, 1.2};
 // before the screen.
 // @param heights  from the axis, in radii of the lens; away from folds.
 Case behind(const std::string& id, const RoundLens& lens, const std::vector<double>& heights,
-            std::uint32_t phases, std::uint32_t rays, const Dispersion& dispersion = {}) {
+            const optics::Settings& settings, const Dispersion& dispersion = {}) {
     SceneBuilder scene;
     const bool disperses = dispersion.b_nm2 > 0.0;
     const MediumId glass =
@@ -74,7 +74,7 @@ Case behind(const std::string& id, const RoundLens& lens, const std::vector<doub
                                  "7th ed., 4.1 and 1.5.2; orders 0 to 12 of internal reflection, "
                                  "and reflection outside",
         .scene = {},
-        .settings = effort(phases, rays, 16),
+        .settings = settings,
         .checks = {}};
     const auto irradiance = [&](double at_m, double plane_m) {
         RoundLens on_plane = lens;
@@ -127,28 +127,64 @@ Case behind(const std::string& id, const RoundLens& lens, const std::vector<doub
     return result;
 }
 
+// Three heights that light reaches and that are away from folds, rims and the shadow of the lens,
+// where the truth varies too fast for what a meter sees of it.
+Case drawn_lens(const std::string& id, Draw& draw, bool is_ball) {
+    const double index = draw.between(1.25, 1.85);
+    const double absorption_per_m = draw.happens(0.5) ? draw.log_between(1.0, 20.0) : 0.0;
+    const RoundLens lens{is_ball, radius_m, index, absorption_per_m,
+                         draw.log_between(1.05, 6.0) * radius_m};
+    constexpr double step = 0.02;  // radii
+    const auto fits = [&](double height) {
+        if (std::abs(height - 1.0) < step || std::abs(height - 1.5) < step) return false;
+        const auto at = [&](double radii) {
+            return truth::lens_irradiance(lens, radii * radius_m) +
+                   (radii > 1.0 && radii < 1.5 ? 1.0 : 0.0);
+        };
+        const double here = at(height);
+        return here > 0.05 &&
+               std::abs(at(height - step) + at(height + step) - 2.0 * here) < 0.02 * here;
+    };
+    std::vector<double> heights;
+    for (int i = 0; i < 3; ++i) {
+        heights.push_back(first_that(fits, [&] { return draw.between(0.05, 1.8); }));
+    }
+    return behind(id, lens, heights, {});
+}
+
 }  // namespace
+
+Case drawn_ball_lens(const std::string& id, Draw& draw) {
+    return drawn_lens(id, draw, true);
+}
+
+Case drawn_cylinder_lens(const std::string& id, Draw& draw) {
+    return drawn_lens(id, draw, false);
+}
 
 std::vector<Case> ball_lens_cases() {
     return {behind("ball_lens/beyond-focus", {true, radius_m, 1.5, 0.0, 4.0 * radius_m},
-                   {0.2, 0.6, 1.2}, 640, 10000),
+                   {0.2, 0.6, 1.2}, effort(640, 10000, 16)),
             behind("ball_lens/absorbing", {true, radius_m, 1.7, 10.0, 3.0 * radius_m},
-                   {0.3, 0.7, 1.2}, 640, 10000),
+                   {0.3, 0.7, 1.2}, effort(640, 10000, 16)),
             behind("ball_lens/before-focus", {true, radius_m, 1.3, 0.0, 1.1 * radius_m},
-                   {0.08, 0.16}, 900, 10000),
+                   {0.08, 0.16}, effort(900, 10000, 16)),
+            // All that the pilot finds is near the axis, a hundred times as bright as this.
+            behind("ball_lens/faint-ring", {true, radius_m, 1.36, 0.0, 1.27 * radius_m},
+                   {1.18, 1.35}, effort(64, 10000, 16)),
             behind("ball_lens/dispersive", {true, radius_m, 1.5, 0.0, 4.0 * radius_m},
-                   smooth_heights, 160, 10000, crown)};
+                   smooth_heights, effort(160, 10000, 16), crown)};
 }
 
 std::vector<Case> cylinder_lens_cases() {
     return {behind("cylinder_lens/beyond-focus", {false, radius_m, 1.5, 0.0, 4.0 * radius_m},
-                   {0.2, 0.6, 1.2}, 640, 10000),
+                   {0.2, 0.6, 1.2}, effort(640, 10000, 16)),
             behind("cylinder_lens/absorbing", {false, radius_m, 1.7, 10.0, 3.0 * radius_m},
-                   {0.3, 0.7, 1.2}, 640, 10000),
+                   {0.3, 0.7, 1.2}, effort(640, 10000, 16)),
             behind("cylinder_lens/before-focus", {false, radius_m, 1.3, 0.0, 1.1 * radius_m},
-                   {0.08, 0.16}, 640, 10000),
+                   {0.08, 0.16}, effort(640, 10000, 16)),
             behind("cylinder_lens/dispersive", {false, radius_m, 1.5, 0.0, 4.0 * radius_m},
-                   smooth_heights, 160, 10000, crown)};
+                   smooth_heights, effort(160, 10000, 16), crown)};
 }
 
 }  // namespace lucerna::validation

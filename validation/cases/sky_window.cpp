@@ -10,22 +10,29 @@ namespace {
 
 using namespace optics;
 
-constexpr double sky =
-    5000.0;  // A room 3 x 4 x 2.5 m with a strip window in the wall y = 0, across its whole width.
-std::vector<NamedPanel> room(double rho) {
-    return {{"wall -x", {0, 0.0, {0.0, 4.0}, {0.0, 2.5}, rho, 0.0}},
-            {"wall +x", {0, 3.0, {0.0, 4.0}, {0.0, 2.5}, rho, 0.0}},
-            {"below the window", {1, 0.0, {0.0, 0.9}, {0.0, 3.0}, rho, 0.0}, false},
-            {"window", {1, 0.0, {0.9, 2.1}, {0.0, 3.0}, 0.0, sky}},
-            {"above the window", {1, 0.0, {2.1, 2.5}, {0.0, 3.0}, rho, 0.0}, false},
-            {"back wall", {1, 4.0, {0.0, 2.5}, {0.0, 3.0}, rho, 0.0}},
-            {"floor", {2, 0.0, {0.0, 3.0}, {0.0, 4.0}, rho, 0.0}},
-            {"ceiling", {2, 2.5, {0.0, 3.0}, {0.0, 4.0}, rho, 0.0}}};
+constexpr double sky = 5000.0;
+
+// A strip window in the wall y = 0, across the whole width of the room.
+struct Room {
+    double width_m = 3.0, depth_m = 4.0, height_m = 2.5;
+    double sill_m = 0.9, head_m = 2.1;
+};
+
+std::vector<NamedPanel> panels_of(const Room& room, double rho) {
+    const double x = room.width_m, y = room.depth_m, z = room.height_m;
+    return {{"wall -x", {0, 0.0, {0.0, y}, {0.0, z}, rho, 0.0}},
+            {"wall +x", {0, x, {0.0, y}, {0.0, z}, rho, 0.0}},
+            {"below the window", {1, 0.0, {0.0, room.sill_m}, {0.0, x}, rho, 0.0}, false},
+            {"window", {1, 0.0, {room.sill_m, room.head_m}, {0.0, x}, 0.0, sky}},
+            {"above the window", {1, 0.0, {room.head_m, z}, {0.0, x}, rho, 0.0}, false},
+            {"back wall", {1, y, {0.0, z}, {0.0, x}, rho, 0.0}},
+            {"floor", {2, 0.0, {0.0, x}, {0.0, y}, rho, 0.0}},
+            {"ceiling", {2, z, {0.0, x}, {0.0, y}, rho, 0.0}}};
 }
 
 // Walls that reflect nothing: the polygon formula of the window.
 Case black_room() {
-    const std::vector<NamedPanel> panels = room(0.0);
+    const std::vector<NamedPanel> panels = panels_of({}, 0.0);
     SceneBuilder scene;
     const BsdfId black = scene.black();
     Rectangle opening{};
@@ -58,14 +65,16 @@ Case black_room() {
             checks};
 }
 
-Case grey_room(double rho) {
-    const std::vector<NamedPanel> panels = room(rho);
-    const std::vector<WallPoint> points{{"desk near the window", {1.2, 1.0, 0.8}, {0, 0, 1}},
-                                        {"desk in the depth", {1.2, 3.0, 0.8}, {0, 0, 1}},
-                                        {"back wall", {1.2, 4.0 - lift_m, 1.3}, {0, -1, 0}}};
-    Case own = room_case(fmt::format("sky_window/grey-room-{:g}", rho),
-                         fmt::format("strip window in a room of reflectance {:g}", rho), panels,
-                         points, effort(128, 24000));
+Case grey_room(const std::string& id, const Room& room, double rho,
+               const optics::Settings& settings) {
+    const std::vector<NamedPanel> panels = panels_of(room, rho);
+    const double x = 0.4 * room.width_m, y = room.depth_m;
+    const std::vector<WallPoint> points{
+        {"desk near the window", {x, 0.25 * y, 0.8}, {0, 0, 1}},
+        {"desk in the depth", {x, 0.75 * y, 0.8}, {0, 0, 1}},
+        {"back wall", {x, y - lift_m, 0.52 * room.height_m}, {0, -1, 0}}};
+    Case own = room_case(id, fmt::format("strip window in a room of reflectance {:g}", rho), panels,
+                         points, settings);
     SceneBuilder scene{own.scene};
     add_sky(scene, rectangle(panels[3].panel), sky);
     own.scene = scene.parts;
@@ -76,7 +85,17 @@ Case grey_room(double rho) {
 }  // namespace
 
 std::vector<Case> sky_window_cases() {
-    return {black_room(), grey_room(0.3), grey_room(0.6)};
+    return {black_room(), grey_room("sky_window/grey-room-0.3", {}, 0.3, effort(128, 24000)),
+            grey_room("sky_window/grey-room-0.6", {}, 0.6, effort(128, 24000))};
+}
+
+Case drawn_sky_window(const std::string& id, Draw& draw) {
+    Room room{.width_m = draw.between(2.0, 8.0),
+              .depth_m = draw.between(3.0, 10.0),
+              .height_m = draw.between(2.4, 4.0)};
+    room.sill_m = draw.between(0.4, 1.2);
+    room.head_m = draw.between(room.sill_m + 0.5, room.height_m - 0.2);
+    return grey_room(id, room, draw.between(0.1, 0.9), {});
 }
 
 }  // namespace lucerna::validation

@@ -104,6 +104,7 @@ TEST_CASE("A kernel of a sensor is as wide as light is even around it") {
     const OnePoint guided{.flux_in_corners = 1e4f};
     CHECK(guided.radius_m(0.1, 20000.0, OnePoint::Light::on_one_side) <= 0.2);
     CHECK(guided.radius_m(infinity) > 0.99 * margin_m);
-    // Few photons tell no bias of a kernel; without any the radius stays as it was.
-    CHECK(room.radius_m(infinity, 0.0) == 1e-3);
+    // Where the pilot finds nothing, what there is is rare: the widest kernel finds it soonest, and
+    // a narrow one might state darkness with hardly any U.
+    CHECK(room.radius_m(infinity, 0.0) > 0.99 * margin_m);
 }

@@ -22,7 +22,7 @@ constexpr std::array list{
     Family{"pane_shadow", "kernels beside a sharp shadow behind glass", pane_shadow_cases,
            drawn_pane_shadow},
     Family{"beer_lambert", "absorption over wavelength", beer_lambert_cases},
-    Family{"invariance", "luminance behind and within glass", invariance_cases},
+    Family{"invariance", "luminance behind and within glass", invariance_cases, drawn_invariance},
     Family{"colour", "colour of CIE illuminants through the engine", colour_cases},
     Family{"polygon_light", "direct light of Lambertian surfaces", polygon_light_cases,
            drawn_polygon_light},

@@ -40,6 +40,7 @@ Case drawn_ball_lens(const std::string& id, Draw& draw);
 Case drawn_cylinder_lens(const std::string& id, Draw& draw);
 Case drawn_rod_guide(const std::string& id, Draw& draw);
 Case drawn_pane_shadow(const std::string& id, Draw& draw);
+Case drawn_invariance(const std::string& id, Draw& draw);
 Case drawn_polygon_light(const std::string& id, Draw& draw);
 Case drawn_closed_box(const std::string& id, Draw& draw);
 Case drawn_grid(const std::string& id, Draw& draw);

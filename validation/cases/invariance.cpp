@@ -13,7 +13,7 @@ using namespace optics;
 // A clear window between two wide emitters; meters look at the window from above, and at the lower
 // emitter from within the glass.
 Case window(const std::string& id, const std::string& title, double index, double below,
-            double above) {
+            double above, const optics::Settings& settings = effort(96, 100, 100)) {
     constexpr double thickness_m = 0.1;
     SceneBuilder scene;
     scene.area_light(
@@ -32,7 +32,7 @@ Case window(const std::string& id, const std::string& title, double index, doubl
                     "T L1 + (1 - T) L2 behind the window; within it n^2 (L1 + R L2) / (1 + R) "
                     "for s and p apart: L / n^2 is invariant (Born and Wolf, 7th ed., 4.8.1)",
                 .scene = {},
-                .settings = effort(96, 100, 100),
+                .settings = settings,
                 .checks = {}};
     for (const double degrees : {0.0, 45.0, 70.0}) {
         const double angle = degrees * pi / 180.0;
@@ -64,7 +64,8 @@ Case window(const std::string& id, const std::string& title, double index, doubl
 }
 
 // A ball of clear glass in a furnace of uniform luminance L = Le / (1 - rho).
-Case ball(const std::string& id, double index, double rho) {
+Case ball(const std::string& id, double index, double rho,
+          const optics::Settings& settings = effort(128, 8000, 16)) {
     constexpr double emitted = 1000.0;
     const Vec3 centre(0.5, 0.5, 0.5);
     SceneBuilder scene;
@@ -84,7 +85,7 @@ Case ball(const std::string& id, double index, double rho) {
             "L = Le / (1 - rho) in air and n^2 L in glass: L / n^2 is invariant and a "
             "lossless ball gives what it takes (Born and Wolf, 7th ed., 4.8.1)",
         .scene = std::move(scene.parts),
-        .settings = effort(128, 8000, 16),
+        .settings = settings,
         .checks = {
             {"the ball from outside", "luminance", "cd/m2", luminance, 0.0, sensor(0), 0.03},
             {"the walls from within", "luminance", "cd/m2", within, 0.0, sensor(1)},
@@ -98,6 +99,13 @@ std::vector<Case> invariance_cases() {
             window("invariance/window-uneven", "window with half the luminance on the near side",
                    1.7, 1000.0, 500.0),
             ball("invariance/ball-1.5", 1.5, 0.6), ball("invariance/ball-1.8", 1.8, 0.4)};
+}
+
+Case drawn_invariance(const std::string& id, Draw& draw) {
+    const double index = draw.between(1.2, 2.2);
+    if (draw.happens(0.5)) return ball(id, index, draw.between(0.1, 0.9), {});
+    return window(id, "window between two luminances", index, draw.log_between(100.0, 1e4),
+                  draw.log_between(100.0, 1e4), {});
 }
 
 }  // namespace lucerna::validation

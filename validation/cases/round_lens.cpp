@@ -1,6 +1,9 @@
 // Caustics of a ball and of a cylinder of glass in a parallel beam, on a screen behind.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+
 #include "validation/cases.h"
 #include "validation/scene_builder.h"
 #include "validation/truth/chebyshev.h"
@@ -76,7 +79,7 @@ Case behind(const std::string& id, const RoundLens& lens, const std::vector<doub
         .scene = {},
         .settings = settings,
         .checks = {}};
-    const auto irradiance = [&](double at_m, double plane_m) {
+    const auto irradiance = [&](double at_m, double plane_m, int nodes) {
         RoundLens on_plane = lens;
         on_plane.screen_m = plane_m;
         const bool beside = at_m > radius_m && at_m < beam_half_width_m;
@@ -85,10 +88,16 @@ Case behind(const std::string& id, const RoundLens& lens, const std::vector<doub
                                       (beside ? 1.0 : 0.0));
         };
         if (!disperses) return at(550.0);
-        constexpr int nodes = 6;  // within 1e-5 of 17
         const truth::Chebyshev of_wavelength(at, spectral::min_wavelength_nm,
                                              spectral::max_wavelength_nm, nodes);
         return truth::luminous_mean([](double) { return 1.0; }, of_wavelength);
+    };
+    constexpr int enough_nodes = 6;  // within 1e-5 of 17 at smooth_heights
+    // Relative, of the interpolation; 0 without dispersion.
+    const auto spectral_error = [&](double at_m) {
+        return std::abs(irradiance(at_m, lens.screen_m, 2 * enough_nodes) /
+                            irradiance(at_m, lens.screen_m, enough_nodes) -
+                        1.0);
     };
     const auto sweep = [&](const std::string& what, double height) {
         return SweepPoint{what, "distance from the axis [radii]", height};
@@ -97,12 +106,12 @@ Case behind(const std::string& id, const RoundLens& lens, const std::vector<doub
     for (const double height : heights) {
         const double at_m = height * radius_m;
         points.emplace_back(at_m, 0.0, lens.screen_m);
-        const double truth = irradiance(at_m, lens.screen_m);
+        const double truth = irradiance(at_m, lens.screen_m, enough_nodes);
         result.checks.push_back({.name = fmt::format("at {:g} radii", height),
                                  .quantity = "illuminance",
                                  .unit = "lx",
                                  .truth = truth,
-                                 .truth_error = 2e-5 * truth,
+                                 .truth_error = (2e-5 + spectral_error(at_m)) * truth,
                                  .read = sensor(result.checks.size()),
                                  .detects_relative = 0.06,
                                  .sweep = sweep("illuminance behind the lens", height)});
@@ -113,12 +122,12 @@ Case behind(const std::string& id, const RoundLens& lens, const std::vector<doub
         const Vec3 target(at_m, 0.0, screen_m);
         // From aside, so that the lens does not hide the screen; sees half a millimetre.
         scene.meter(target + Vec3(0.12, 0.0, -0.05), target, 0.001);
-        const double truth = screen_reflectance / pi * irradiance(at_m, screen_m);
+        const double truth = screen_reflectance / pi * irradiance(at_m, screen_m, enough_nodes);
         result.checks.push_back({.name = fmt::format("screen at {:g} radii", height),
                                  .quantity = "luminance",
                                  .unit = "cd/m2",
                                  .truth = truth,
-                                 .truth_error = 5e-5 * truth,
+                                 .truth_error = (5e-5 + spectral_error(at_m)) * truth,
                                  .read = sensor(result.checks.size()),
                                  .detects_relative = 0.15,
                                  .sweep = sweep("luminance of the screen", height)});
@@ -131,25 +140,32 @@ Case behind(const std::string& id, const RoundLens& lens, const std::vector<doub
 // where the truth varies too fast for what a meter sees of it.
 Case drawn_lens(const std::string& id, Draw& draw, bool is_ball) {
     const double index = draw.between(1.25, 1.85);
-    const double absorption_per_m = draw.happens(0.5) ? draw.log_between(1.0, 20.0) : 0.0;
+    const Dispersion dispersion{draw.happens(0.3) ? draw.between(2e3, 8e3) : 0.0};
+    const bool absorbs = dispersion.b_nm2 == 0.0 && draw.happens(0.7);
+    const double absorption_per_m = absorbs ? draw.log_between(1.0, 20.0) : 0.0;
     const RoundLens lens{is_ball, radius_m, index, absorption_per_m,
                          draw.log_between(1.05, 6.0) * radius_m};
     constexpr double step = 0.02;  // radii
-    const auto fits = [&](double height) {
-        if (std::abs(height - 1.0) < step || std::abs(height - 1.5) < step) return false;
+    const auto is_smooth = [&](double height, double nm) {
         const auto at = [&](double radii) {
-            return truth::lens_irradiance(lens, radii * radius_m) +
+            return truth::lens_irradiance(dispersion.at(lens, nm), radii * radius_m) +
                    (radii > 1.0 && radii < 1.5 ? 1.0 : 0.0);
         };
         const double here = at(height);
         return here > 0.05 &&
                std::abs(at(height - step) + at(height + step) - 2.0 * here) < 0.02 * here;
     };
+    const auto fits = [&](double height) {
+        if (std::abs(height - 1.0) < step || std::abs(height - 1.5) < step) return false;
+        return std::ranges::all_of(
+            std::array{400.0, 440.0, 480.0, 520.0, 560.0, 600.0, 640.0, 680.0},
+            [&](double nm) { return is_smooth(height, nm); });
+    };
     std::vector<double> heights;
     for (int i = 0; i < 3; ++i) {
         heights.push_back(first_that(fits, [&] { return draw.between(0.05, 1.8); }));
     }
-    return behind(id, lens, heights, {});
+    return behind(id, lens, heights, {}, dispersion);
 }
 
 }  // namespace

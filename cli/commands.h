@@ -72,10 +72,9 @@ struct BenchOptions {
 ExitCode bench(const BenchOptions& options);
 
 struct ValidateOptions {
-    std::vector<std::string> cases;  ///< ids, families or patterns; none: all
-    bool list = false;               ///< only say which there are
-    std::optional<std::uint32_t>
-        draw;  ///< cases per family, drawn by `seed`, in place of the fixed
+    std::vector<std::string> cases;     ///< ids, families or patterns; none: all
+    bool list = false;                  ///< only say which there are
+    std::optional<std::uint32_t> draw;  ///< cases per family, in place of the fixed ones
     std::size_t seeds = 1;
     std::uint64_t seed = 1;
     std::optional<int> threads;

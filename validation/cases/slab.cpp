@@ -46,7 +46,7 @@ Case over_emitter(const std::string& id, double index, double absorption_per_m, 
              .quantity = "luminance",
              .unit = "cd/m2",
              .truth = truth,
-             .truth_error = 2e-5 * truth,  // the meter's cone of 1 mrad
+             .truth_error = 1e-5 * truth,  // the meter's cone of 1 mrad
              .read = sensor(result.checks.size()),
              .detects_relative = 0.01,
              .sweep = SweepPoint{"transmittance of a slab", "angle of incidence [deg]", degrees}});

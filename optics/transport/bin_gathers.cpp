@@ -62,11 +62,11 @@ void BinGathers::where_seen(const GatherPoint& at, std::uint8_t histories, const
     add(seen->gathered, weight);
 }
 
-// Many rays of a meter see nearly the same point: what one finds stands for the next ones that
-// come close to it, by a tenth of the narrowest kernel. That adds about a hundredth to a bias
-// which is small there.
+// Many rays of a meter see nearly the same points: what one finds stands for all that come close to
+// it, by a twentieth of the narrowest kernel. That adds a few thousandths to a bias which is small
+// there.
 void BinGathers::by_meter(const GatherPoint& at, std::uint8_t histories, const Lanes& weight) {
-    constexpr double near = 0.1;
+    constexpr double near = 0.05;
     const std::uint32_t patch = kernel_patch(phase_.stage, at.point);
     const bool above = at.wo.z() > 0.0;
     const auto radius_m = [&](const ForwardMap& map, const Radii& radii) {
@@ -74,12 +74,16 @@ void BinGathers::by_meter(const GatherPoint& at, std::uint8_t histories, const L
     };
     const double near_m = near * std::min(radius_m(maps_.caustic, maps_.caustic_radii),
                                           radius_m(maps_.indirect, maps_.indirect_radii));
-    if (seen_.empty() || seen_[0].patch != patch || seen_[0].above != above ||
-        (seen_[0].position - at.point.position).squaredNorm() > near_m * near_m) {
-        seen_.assign(1, {patch, above, 0, at.point.position, weight, {}});
-        seen_[0].gathered = gathered(at, histories, weight);
+    auto close = std::find_if(seen_.begin(), seen_.end(), [&](const Seen& s) {
+        return s.patch == patch && s.above == above &&
+               (s.position - at.point.position).squaredNorm() <= near_m * near_m;
+    });
+    if (close == seen_.end()) {
+        seen_.push_back(
+            {patch, above, 0, at.point.position, weight, gathered(at, histories, weight)});
+        close = seen_.end() - 1;
     }
-    add(seen_[0].gathered, weight);
+    add(close->gathered, weight);
 }
 
 void BinGathers::at_sensor(const GatherPoint& at, std::uint8_t histories) {

@@ -180,6 +180,21 @@ void BackwardRays::number(const Readings& readings) {
     }
 }
 
+std::vector<BinBlock> BackwardRays::some_of_images(const SceneParts& parts,
+                                                   const Readings& readings,
+                                                   std::size_t most) const {
+    std::vector<BinBlock> of_images;
+    for (const BinBlock& block : blocks_) {
+        if (is_camera(parts, readings.observers()[block.observer_bins])) of_images.push_back(block);
+    }
+    std::vector<BinBlock> some;
+    const std::size_t count = std::min(most, of_images.size());
+    for (std::size_t i = 0; i < count; ++i) {
+        some.push_back(of_images[i * of_images.size() / count]);
+    }
+    return some;
+}
+
 std::uint32_t BackwardRays::per_gather() const {
     std::uint32_t largest = 1;
     for (const Shares& own : observers_) largest = std::max(largest, own.per_gather);

@@ -47,6 +47,7 @@ struct RaySums {
     float segments = 0.0f;     ///< of their paths, shadow rays included
     float kernel_bias = 0.0f;  ///< of the luminance gathered from the map of indirect light
     float barriers = 0.0f;     ///< number of kernels that barriers cut
+    float caustic_photons = 0.0f, indirect_photons = 0.0f;  ///< gathered from each map
 
     RaySums& operator+=(const RaySums& other) {
         rays += other.rays;
@@ -55,6 +56,8 @@ struct RaySums {
         segments += other.segments;
         kernel_bias += other.kernel_bias;
         barriers += other.barriers;
+        caustic_photons += other.caustic_photons;
+        indirect_photons += other.indirect_photons;
         return *this;
     }
 };
@@ -87,6 +90,9 @@ public:
     }
     const std::vector<BinBlock>& blocks() const { return blocks_; }
     std::uint64_t per_phase() const { return total_; }
+    /// At most so many blocks, spread evenly over all images.
+    std::vector<BinBlock> some_of_images(const SceneParts& parts, const Readings& readings,
+                                         std::size_t most) const;
     /// Largest number of rays that one gathers for where all pixels have as many.
     std::uint32_t per_gather() const;
     std::size_t bytes() const;

@@ -62,6 +62,8 @@ public:
                 sums->square += luminance * luminance;
                 sums->kernel_bias += static_cast<float>(rays.count * gathers_.kernel_bias());
                 sums->barriers += static_cast<float>(gathers_.cut_kernels());
+                sums->caustic_photons += static_cast<float>(gathers_.caustic_photons());
+                sums->indirect_photons += static_cast<float>(gathers_.indirect_photons());
                 sums->segments +=
                     static_cast<float>(tally_.segments + tally_.shadow_segments - segments);
             }

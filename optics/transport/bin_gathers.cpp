@@ -25,6 +25,7 @@ void BinGathers::next_ray(std::uint32_t ray) {
         ray < gathers ? static_cast<float>(rays_.count) / static_cast<float>(gathers) : 0.0f;
     kernel_bias_ = 0.0;
     cut_kernels_ = 0;
+    caustic_photons_ = indirect_photons_ = 0;
 }
 
 // What a ray of a bin finds on a patch stands for the next ones as well that come to the patch
@@ -102,6 +103,8 @@ Gathered BinGathers::gathered(const GatherPoint& at, std::uint8_t histories, con
     const ForwardMaps::Found found =
         maps_.gather(phase_, own, histories, rays_.kernel_scale, rays_.barriers);
     if (found.cut) ++cut_kernels_;
+    caustic_photons_ += found.caustic_photons;
+    indirect_photons_ += found.indirect_photons;
     if (camera_) kernel_bias_ += phase_.luminous(weight * found.indirect_bias);
     return found.light;
 }

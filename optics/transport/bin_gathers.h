@@ -31,6 +31,9 @@ public:
     double kernel_bias() const { return kernel_bias_; }
     /// Of the ray: number of kernels that barriers cut.
     int cut_kernels() const { return cut_kernels_; }
+    /// Of the ray: number of photons gathered from each map.
+    std::uint32_t caustic_photons() const { return caustic_photons_; }
+    std::uint32_t indirect_photons() const { return indirect_photons_; }
 
 private:
     struct Seen {
@@ -55,6 +58,7 @@ private:
     std::vector<Seen, Eigen::aligned_allocator<Seen>> seen_;  // by the rays of the bin
     float specular_weight_ = 1.0f;  // 0: the ray does not gather behind specular events
     int cut_kernels_ = 0;
+    std::uint32_t caustic_photons_ = 0, indirect_photons_ = 0;
     double kernel_bias_ = 0.0;
 };
 

@@ -48,10 +48,10 @@ Gathered KernelSums::over(const KernelAreas& areas, double radius_m, double rays
     const Lanes radiance = full * static_cast<float>(1.0 / (rays * areas.full));
     // A sliver tells nothing of the bias but noise.
     constexpr double sliver = 0.125;
-    if (areas.inner < sliver * areas.full) return {radiance, Lanes::Zero()};
+    if (areas.inner < sliver * areas.full) return {.radiance = radiance};
     const Lanes inside = narrow * static_cast<float>(1.0 / (rays * areas.inner));
-    return {radiance,
-            static_cast<float>(bias_per_difference(areas, radius_m)) * (radiance - inside)};
+    return {.radiance = radiance,
+            .bias = static_cast<float>(bias_per_difference(areas, radius_m)) * (radiance - inside)};
 }
 
 Vec3 kernel_direction(const Frame& frame, const Photon& photon) {
@@ -179,11 +179,11 @@ Gathered ForwardMap::gather(const Phase& phase, const Radii& radii, const Gather
         PerAxis slope = zero_per_axis, step = zero_per_axis;
     };
     Sums sum;
-    bool found = false;
+    std::uint32_t found = 0;
     const bool tells_steps = at.tells_steps && areas.flat_disc;
     const auto add = [&](Sums& to, const Lanes& light, const Candidate& candidate,
                          const Photon& photon, double weight) {
-        found = true;
+        ++found;
         const bool halved = candidate.on_common_lane && at.optics.hero_only;
         const Lanes part = halved ? Lanes(light * weight_of_common_heroes) : light;
         to.full += part;
@@ -219,8 +219,9 @@ Gathered ForwardMap::gather(const Phase& phase, const Radii& radii, const Gather
                                add(sum, photon.flux * scattered(wi), candidate, photon, weight);
                            });
     }
-    if (!found) return {};
+    if (found == 0) return {};
     Gathered gathered = sum.over(areas, radius_m, rays_);
+    gathered.photons = found;
     if (!tells_steps) return gathered;
     const double per_sum = 1.0 / (rays_ * areas.full);
     for (std::size_t i = 0; i < 3; ++i) {

@@ -81,6 +81,7 @@ inline const PerAxis zero_per_axis{Lanes::Zero(), Lanes::Zero(), Lanes::Zero()};
 struct Gathered {
     Lanes radiance = Lanes::Zero();  ///< at the full radius [W/(m2 sr nm)]
     Lanes bias = Lanes::Zero();      ///< of it, as both kernels tell
+    std::uint32_t photons = 0;       ///< in the kernel
     /// Where asked, in flat discs: first moment over r, which points to where it is brighter; and
     /// that of a step, see bias_per_moment_of_step.
     PerAxis slope = zero_per_axis, step = zero_per_axis;
@@ -88,6 +89,7 @@ struct Gathered {
     void operator+=(const Gathered& other) {
         radiance += other.radiance;
         bias += other.bias;
+        photons += other.photons;
         for (std::size_t i = 0; i < 3; ++i) {
             slope[i] += other.slope[i];
             step[i] += other.step[i];

@@ -29,10 +29,14 @@ ForwardMaps::Found ForwardMaps::gather(const Phase& phase, const GatherPoint& at
             narrow.region = wide.region = &*region;
         }
     }
-    if (of_caustics) found.light += caustic.gather(phase, caustic_radii, narrow);
+    if (of_caustics) {
+        found.light = caustic.gather(phase, caustic_radii, narrow);
+        found.caustic_photons = found.light.photons;
+    }
     if (of_indirect) {
         const Gathered light = indirect.gather(phase, indirect_radii, wide);
         found.indirect_bias = light.bias;
+        found.indirect_photons = light.photons;
         found.light += light;
     }
     return found;

@@ -14,7 +14,8 @@ struct ForwardMaps {
     struct Found {
         Gathered light;                       ///< of both maps
         Lanes indirect_bias = Lanes::Zero();  ///< of the light of the indirect map
-        bool cut = false;                     ///< barriers cut the kernels
+        std::uint32_t caustic_photons = 0, indirect_photons = 0;  ///< in the kernels
+        bool cut = false;                                         ///< by barriers
     };
 
     /// Light of the given histories, or-ed, at a point.

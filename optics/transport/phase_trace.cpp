@@ -61,35 +61,6 @@ ForwardMap forward_map(const Phase& phase, const TraceContext& context, History 
     return map;
 }
 
-ForwardMaps forward_maps(const Phase& phase, const TraceContext& context, const Plan& plan,
-                         std::uint32_t radii_of, PhaseTrace& trace) {
-    ForwardMaps maps;
-    const auto gathers = [&](History history) {
-        return plan.gathers(context.stage, context.planes, history);
-    };
-    if (gathers(History::caustic)) {
-        maps.caustic_radii = plan.caustic_radii.at_phase(radii_of);
-        ForwardTally unused(context.stage.parts());
-        const Emission emission(phase, RandomPurpose::caustic, plan.caustic_guide,
-                                plan.caustic_rays);
-        maps.caustic = forward_map(phase, context, History::caustic, emission, plan.caustic_rays,
-                                   maps.caustic_radii, unused, trace.counts);
-    }
-    if (gathers(History::indirect)) {
-        maps.indirect_radii = plan.indirect_radii.at_phase(radii_of);
-        ForwardTally tally(context.stage.parts());
-        maps.indirect =
-            forward_map(phase, context, History::indirect, Emission(phase, RandomPurpose::indirect),
-                        plan.indirect_rays, maps.indirect_radii, tally, trace.counts);
-        if (!plan.traces_secondary(context.stage, context.planes)) {
-            trace.tally = tally;
-            trace.balance_rays = plan.indirect_rays;
-        }
-    }
-    trace.forward_map_bytes = maps.caustic.bytes() + maps.indirect.bytes();
-    return maps;
-}
-
 // Secondary rays, and what they deposit. Without backward photons (path tracing) they serve
 // receivers and flux balance.
 void deposit(const Phase& phase, const TraceContext& context, std::uint32_t rays, BackwardMap& map,
@@ -191,17 +162,51 @@ std::vector<Photon> trace_photons(const Phase& phase, const TraceContext& contex
     return joined(photons, context.threads);
 }
 
+void trace_caustic_map(const Phase& phase, const TraceContext& context, const Plan& plan,
+                       std::uint32_t radii_of, ForwardMaps& maps, PhaseTrace& trace) {
+    maps.caustic_radii = plan.caustic_radii.at_phase(radii_of);
+    ForwardTally unused(context.stage.parts());
+    const Emission emission(phase, RandomPurpose::caustic, plan.caustic_guide, plan.caustic_rays);
+    maps.caustic = forward_map(phase, context, History::caustic, emission, plan.caustic_rays,
+                               maps.caustic_radii, unused, trace.counts);
+}
+
+void trace_indirect_map(const Phase& phase, const TraceContext& context, const Plan& plan,
+                        std::uint32_t radii_of, ForwardMaps& maps, PhaseTrace& trace) {
+    maps.indirect_radii = plan.indirect_radii.at_phase(radii_of);
+    ForwardTally tally(context.stage.parts());
+    maps.indirect =
+        forward_map(phase, context, History::indirect, Emission(phase, RandomPurpose::indirect),
+                    plan.indirect_rays, maps.indirect_radii, tally, trace.counts);
+    if (!plan.traces_secondary(context.stage, context.planes)) {
+        trace.tally = tally;
+        trace.balance_rays = plan.indirect_rays;
+    }
+}
+
+ForwardMaps forward_maps(const Phase& phase, const TraceContext& context, const Plan& plan,
+                         std::uint32_t radii_of, PhaseTrace& trace) {
+    ForwardMaps maps;
+    if (plan.gathers(context.stage, context.planes, History::caustic)) {
+        trace_caustic_map(phase, context, plan, radii_of, maps, trace);
+    }
+    if (plan.gathers(context.stage, context.planes, History::indirect)) {
+        trace_indirect_map(phase, context, plan, radii_of, maps, trace);
+    }
+    trace.forward_map_bytes = maps.caustic.bytes() + maps.indirect.bytes();
+    return maps;
+}
+
 std::vector<RaySums> trace_single_rays(const Phase& phase, const TraceContext& context,
-                                       const Plan& plan) {
-    PhaseTrace trace(context);
-    const ForwardMaps maps = forward_maps(phase, context, plan, 0, trace);
+                                       const Plan& plan, const ForwardMaps& maps,
+                                       std::span<const BinBlock> blocks) {
+    PhaseReadings unused_readings = context.readings.new_phase();
     std::vector<RaySums> sums(context.readings.bin_count());
-    const std::vector<BinBlock>& blocks = plan.rays.blocks();
     for_each_block(blocks.size(), context.threads, [&](std::size_t i) {
         BackwardTally unused;
         trace_backward(phase, plan.collections,
                        context.readings.observers()[blocks[i].observer_bins], plan.rays, blocks[i],
-                       context.planes, maps, trace.readings, unused, &sums);
+                       context.planes, maps, unused_readings, unused, &sums);
     });
     return sums;
 }

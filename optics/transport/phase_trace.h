@@ -63,9 +63,20 @@ std::vector<Photon> trace_photons(const Phase& phase, const TraceContext& contex
                                   const Emission& emission, Reach reach, std::uint8_t histories,
                                   std::uint32_t rays, ForwardTally& tally);
 
-/// What the single backward rays of a phase read, per bin, those of the blocks of `plan.rays`.
+/// The forward maps that are gathered from in a phase, with kernels as narrow as in phase number
+/// `radii_of`.
+ForwardMaps forward_maps(const Phase& phase, const TraceContext& context, const Plan& plan,
+                         std::uint32_t radii_of, PhaseTrace& trace);
+/// The same, one of them: anew, or for the first time; the other stays as it is.
+void trace_caustic_map(const Phase& phase, const TraceContext& context, const Plan& plan,
+                       std::uint32_t radii_of, ForwardMaps& maps, PhaseTrace& trace);
+void trace_indirect_map(const Phase& phase, const TraceContext& context, const Plan& plan,
+                        std::uint32_t radii_of, ForwardMaps& maps, PhaseTrace& trace);
+
+/// What the single backward rays of some blocks of bins read in a phase, per bin.
 std::vector<RaySums> trace_single_rays(const Phase& phase, const TraceContext& context,
-                                       const Plan& plan);
+                                       const Plan& plan, const ForwardMaps& maps,
+                                       std::span<const BinBlock> blocks);
 
 /// Traces a phase for some blocks of bins, with kernels as narrow as in phase number `radii_of`.
 void trace_phase(const Phase& phase, const TraceContext& context, const Plan& plan,

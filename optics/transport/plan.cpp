@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "optics/transport/emission_pilot.h"
+#include "optics/transport/forward_rays.h"
 #include "optics/transport/sensor_pilot.h"
 #include "optics/transport/sensor_radii.h"
 
@@ -150,27 +151,12 @@ void choose_radii(const TraceContext& context, const Settings& settings, Plan& p
                    min_forward_rays, at_least_min(plan.rays.per_phase())));
 }
 
-// Blocks spread evenly over all images.
-std::vector<BinBlock> some_of_images(const TraceContext& context, const BackwardRays& rays) {
-    std::vector<BinBlock> of_images;
-    for (const BinBlock& block : rays.blocks()) {
-        if (is_camera(context.stage.parts(), context.readings.observers()[block.observer_bins])) {
-            of_images.push_back(block);
-        }
-    }
-    std::vector<BinBlock> some;
-    const std::size_t count = std::min(pilot_blocks, of_images.size());
-    for (std::size_t i = 0; i < count; ++i) {
-        some.push_back(of_images[i * of_images.size() / count]);
-    }
-    return some;
-}
-
 // Which of both ways to collect indirect light has less noise in a phase: the variance over pilot
 // phases of the same pixels, that of emission and direct light apart.
 void choose_collection_of_images(const TraceContext& context, const Settings& settings,
                                  Plan& plan) {
-    const std::vector<BinBlock> blocks = some_of_images(context, plan.rays);
+    const std::vector<BinBlock> blocks =
+        plan.rays.some_of_images(context.stage.parts(), context.readings, pilot_blocks);
     if (blocks.empty()) return;
     const auto noise = [&](const Collection& collection, std::uint32_t indirect_rays) {
         Plan pilot = plan;
@@ -198,6 +184,14 @@ void choose_collection_of_images(const TraceContext& context, const Settings& se
     }
 }
 
+// What the single rays of a pilot phase read.
+std::vector<RaySums> pilot_rays(const Phase& phase, const TraceContext& context,
+                                const Plan& pilot) {
+    PhaseTrace unused(context);
+    return trace_single_rays(phase, context, pilot, forward_maps(phase, context, pilot, 0, unused),
+                             pilot.rays.blocks());
+}
+
 // Finds out which pixels have kernels that barriers cut or that should be narrower.
 void look_at_kernels(const TraceContext& context, const Settings& settings, Plan& plan) {
     const auto gathers = [&](History history) {
@@ -215,7 +209,7 @@ void look_at_kernels(const TraceContext& context, const Settings& settings, Plan
     const std::uint32_t phases = gathers(History::indirect) ? phases_to_look : 1;
     for (std::uint32_t i = 0; i < phases; ++i) {
         const Phase phase(context.stage, settings.seed, pilot_phase - pilot_phases - 4 - i);
-        sums.push_back(trace_single_rays(phase, context, pilot));
+        sums.push_back(pilot_rays(phase, context, pilot));
     }
     plan.rays.look_at_kernels(parts, context.readings, sums);
 }
@@ -231,7 +225,7 @@ void share_out_rays(const TraceContext& context, const Settings& settings, Plan&
     pilot.rays.take_kernels(plan.rays);
     if (pilot.rays.blocks().empty()) return;
     const Phase phase(context.stage, settings.seed, pilot_phase - pilot_phases - 1);
-    plan.rays.share_out(parts, context.readings, trace_single_rays(phase, context, pilot),
+    plan.rays.share_out(parts, context.readings, pilot_rays(phase, context, pilot),
                         plan.collections.cameras.reaches_second_event());
 }
 
@@ -260,6 +254,7 @@ Plan make_plan(const TraceContext& context, const Settings& settings) {
     if (only_cameras) plan.collections.sensors = plan.collections.cameras;
     look_at_kernels(context, settings, plan);
     if (!settings.samples_per_pixel) share_out_rays(context, settings, plan);
+    choose_forward_rays(context, settings, pilot_phase - pilot_phases - 8, plan);
     return plan;
 }
 

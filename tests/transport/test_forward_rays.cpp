@@ -1,0 +1,73 @@
+// How many forward rays a phase has: as many as pay beside its backward rays.
+#include "optics/transport/forward_rays.h"
+#include "optics/transport/plan.h"
+#include "tests/support/cornell_scenes.h"
+#include "tests/support/truth_checks.h"
+
+using namespace lucerna;
+using namespace lucerna::optics;
+using test::SceneBuilder;
+
+namespace {
+
+Plan plan_of(const SceneBuilder& scene, const Settings& settings) {
+    const Stage stage(scene.parts);
+    const SensorPlanes planes(stage.parts(), stage.caster(), 0.1);
+    const Readings readings(scene.parts, settings);
+    return make_plan({stage, planes, readings, Scheduler::ordered, 1}, settings);
+}
+
+}  // namespace
+
+TEST_CASE("With the rays that pay, variance times cost is least") {
+    constexpr double rays = 1000.0;
+    for (const NoiseAndCost& of_map : {NoiseAndCost{3.0, 0.2}, {0.1, 5.0}, {2.0, 2.0}}) {
+        const NoiseAndCost of_backward{1.5, 4.0};
+        const auto effort = [&](double n) {
+            return (of_backward.variance + of_map.variance * rays / n) *
+                   (of_backward.cost + of_map.cost * n / rays);
+        };
+        const double best = rays_that_pay(rays, of_map, of_backward);
+        INFO(best << " rays");
+        CHECK(effort(best) < effort(1.01 * best));
+        CHECK(effort(best) < effort(best / 1.01));
+    }
+}
+
+TEST_CASE("Forward rays are fewer where backward rays are noisy by themselves") {
+    Settings settings;
+    settings.method = Method::forward;
+    settings.samples_per_pixel = 8;
+    // The room without its lamp in view, and with a lamp whose rim crosses pixels.
+    const auto rays = [&](bool rim) {
+        SceneBuilder scene = test::cornell_diffuse(0);
+        scene.camera({0.5, 0.5, 2.4}, {0.5, 0.3, 0.0}, Vec3::UnitY(), 0.3, 128, 128);
+        if (rim) {
+            scene.area_light(
+                scene.object("rim", Disk{{0.5, 0.4, 1.0}, Vec3::UnitZ(), 0.05}, scene.black()),
+                20.0);
+        }
+        return plan_of(scene, settings).indirect_rays;
+    };
+    const std::uint32_t calm = rays(false);
+    const std::uint32_t noisy = rays(true);
+    INFO(calm << " and " << noisy << " rays");
+    CHECK(calm > 3 * noisy);
+
+    settings.forward_rays = 30000;
+    CHECK(rays(true) == 30000);
+}
+
+TEST_CASE("Caustic rays that sensors need are not spared for an image") {
+    const auto rays = [](bool sensor) {
+        SceneBuilder scene = test::cornell_caustic(128);
+        if (sensor) scene.points({{0.7, 0.0, 0.6}}, Vec3::UnitY());
+        Settings settings;
+        settings.method = Method::forward;
+        return plan_of(scene, settings).caustic_rays;
+    };
+    constexpr std::uint32_t usual = 128 * 128 * 8 / 4;
+    INFO(rays(true) << " and " << rays(false) << " rays");
+    CHECK(rays(true) >= usual);
+    CHECK(rays(false) < usual);
+}

@@ -11,13 +11,17 @@ constexpr std::uint32_t least_forward_rays = 20000;
 constexpr std::size_t pilot_blocks = 32;
 // A pilot's photons are a quarter of a phase's: their noise is the larger and shows the better.
 constexpr std::uint32_t pilot_share = 4;
-// Costs over that of a segment of a forward ray, medians of two boxes, an office, a room with
-// furniture and a light guide. A segment of a backward ray comes with direct light.
-constexpr double cost_of_backward_segment = 2.0;
-constexpr double cost_of_stored_photon = 0.5, cost_of_gathered_photon = 0.04;
+// Costs over that of a segment of a forward ray, as measured in two boxes, an office, a room with
+// furniture and a light guide, where they differ by a factor of two or so. A segment of a backward
+// ray comes with direct light.
+constexpr double cost_of_backward_segment = 1.4;
+constexpr double cost_of_stored_photon = 0.4, cost_of_gathered_photon = 0.06;
 constexpr std::size_t worst_pixels = 1000;  // one in so many
-// Runs that stop after their first phases gain nothing by long ones.
-constexpr double most_change = 4.0;
+// Pilots are lucky or not; a number further below the usual one is not trusted to them.
+constexpr double most_spared = 4.0;
+// Runs that stop at their first look gain nothing by long phases: more rays than usual may take so
+// much of what the backward rays and the usual ones cost.
+constexpr double most_added = 0.5;
 
 // A phase of the same wavelengths whose other random numbers are those of another one.
 Phase twin_of(const Phase& phase, std::uint32_t number) {
@@ -110,11 +114,13 @@ void choose_forward_rays(const TraceContext& context, const Settings& settings,
                 cost_of_stored_photon * static_cast<double>(map.size()) +
                 cost_of_gathered_photon * scale * static_cast<double>(gathered)};
         before = after;
-        const auto most = std::max<std::uint64_t>(usual, plan.rays.per_phase());
+        const double cost_of_ray = of_map.cost / pilot_rays;
+        const double added = most_added * (of_backward.cost / cost_of_ray + usual);
         const double rays = std::clamp(rays_that_pay(pilot_rays, of_map, of_backward),
-                                       usual / most_change, usual * most_change);
-        return static_cast<std::uint32_t>(
-            std::clamp<double>(rays, least_forward_rays, static_cast<double>(most)));
+                                       usual / most_spared, usual + added);
+        const auto most =
+            static_cast<double>(std::max<std::uint64_t>(usual, plan.rays.per_phase()));
+        return static_cast<std::uint32_t>(std::clamp<double>(rays, least_forward_rays, most));
     };
     if (of_indirect) {
         plan.indirect_rays = rays_for(trace_indirect_map, maps.indirect, sum.indirect_photons,

@@ -52,7 +52,7 @@ TEST_CASE("Forward rays are fewer where backward rays are noisy by themselves") 
     const std::uint32_t calm = rays(false);
     const std::uint32_t noisy = rays(true);
     INFO(calm << " and " << noisy << " rays");
-    CHECK(calm > 3 * noisy);
+    CHECK(calm > 2 * noisy);
 
     settings.forward_rays = 30000;
     CHECK(rays(true) == 30000);

@@ -37,10 +37,13 @@ ProgressLine::~ProgressLine() {
 }
 
 void ProgressLine::show(const optics::Progress& progress) {
+    show(progress_text(progress), progress.elapsed_s);
+}
+
+void ProgressLine::show(const std::string& text, double elapsed_s) {
     const double interval_s = terminal_ ? 0.1 : 5.0;
-    if (progress.elapsed_s - last_shown_s_ < interval_s) return;
-    last_shown_s_ = progress.elapsed_s;
-    const std::string text = progress_text(progress);
+    if (elapsed_s - last_shown_s_ < interval_s) return;
+    last_shown_s_ = elapsed_s;
     if (terminal_) {
         fmt::print(stderr, "\r{}\x1b[K", text);
     } else {

@@ -23,6 +23,8 @@ public:
     ProgressLine& operator=(const ProgressLine&) = delete;
 
     void show(const optics::Progress& progress);
+    /// @param elapsed_s  since the start.
+    void show(const std::string& text, double elapsed_s);
 
 private:
     bool terminal_;

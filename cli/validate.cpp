@@ -1,13 +1,11 @@
 // The command validate: the engine against truths that were derived without it.
 #include <fmt/format.h>
-#include <unistd.h>
-
-#include <chrono>
-#include <cstdio>
 
 #include "cli/commands.h"
+#include "cli/progress_line.h"
 #include "cli/results_folder.h"
 #include "core/parallel.h"
+#include "core/stopwatch.h"
 #include "io/atomic_file.h"
 #include "validation/cases.h"
 #include "validation/report.h"
@@ -40,18 +38,19 @@ ExitCode validate(const ValidateOptions& options) {
     }
     plan.method = options.method;
     plan.threads = options.threads.value_or(hardware_threads());
-    const bool terminal = ::isatty(STDERR_FILENO) == 1;
     const std::size_t runs = cases.size() * plan.seeds;
-    const auto start = std::chrono::steady_clock::now();
-    validation::Report report{.outcomes = validation::run_cases(
-                                  cases, plan,
-                                  [&](std::size_t run) {
-                                      if (terminal)
-                                          fmt::print(stderr, "\r{} of {} runs\x1b[K", run, runs);
-                                  }),
-                              .plan = plan};
-    if (terminal) std::fputs("\r\x1b[K", stderr);
-    report.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const Stopwatch watch;
+    validation::Report report;
+    report.plan = plan;
+    {
+        ProgressLine line;
+        report.outcomes = validation::run_cases(cases, plan, [&](std::size_t run) {
+            const double elapsed_s = watch.seconds();
+            line.show(fmt::format("{} of {} runs, {}", run, runs, duration_text(elapsed_s)),
+                      elapsed_s);
+        });
+    }
+    report.wall_s = watch.seconds();
     fmt::print("{}", validation::report_text(report));
     if (options.output) {
         const auto json = *options.output / "validation.json";

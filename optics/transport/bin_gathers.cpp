@@ -68,6 +68,9 @@ void BinGathers::where_seen(const GatherPoint& at, std::uint8_t histories, const
 // there.
 void BinGathers::by_meter(const GatherPoint& at, std::uint8_t histories, const Lanes& weight) {
     constexpr double near = 0.05;
+    // A meter that sees more than so many such places gathers at the others anew: to look through
+    // long lists would take longer.
+    constexpr std::size_t most_seen = 256;
     const std::uint32_t patch = kernel_patch(phase_.stage, at.point);
     const bool above = at.wo.z() > 0.0;
     const auto radius_m = [&](const ForwardMap& map, const Radii& radii) {
@@ -75,16 +78,16 @@ void BinGathers::by_meter(const GatherPoint& at, std::uint8_t histories, const L
     };
     const double near_m = near * std::min(radius_m(maps_.caustic, maps_.caustic_radii),
                                           radius_m(maps_.indirect, maps_.indirect_radii));
-    auto close = std::find_if(seen_.begin(), seen_.end(), [&](const Seen& s) {
+    const auto close = std::find_if(seen_.begin(), seen_.end(), [&](const Seen& s) {
         return s.patch == patch && s.above == above &&
                (s.position - at.point.position).squaredNorm() <= near_m * near_m;
     });
-    if (close == seen_.end()) {
-        seen_.push_back(
-            {patch, above, 0, at.point.position, weight, gathered(at, histories, weight)});
-        close = seen_.end() - 1;
+    if (close != seen_.end()) return add(close->gathered, weight);
+    const Gathered found = gathered(at, histories, weight);
+    if (seen_.size() < most_seen) {
+        seen_.push_back({patch, above, 0, at.point.position, weight, found});
     }
-    add(close->gathered, weight);
+    add(found, weight);
 }
 
 void BinGathers::at_sensor(const GatherPoint& at, std::uint8_t histories) {

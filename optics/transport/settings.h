@@ -72,7 +72,7 @@ struct Settings {
     std::vector<SensorTarget> sensor_targets;  ///< of single sensors, in place of sensor_accuracy
     std::optional<double> time_limit_s;        ///< wall time
     std::optional<std::uint32_t> max_phases;
-    std::optional<std::uint32_t> forward_rays;  ///< per phase and map; default: see simulate.cpp
+    std::optional<std::uint32_t> forward_rays;  ///< per phase and map; default: see forward_rays.h
     /// Backward rays per pixel and phase; default: see readings.cpp.
     std::optional<int> samples_per_pixel;
     int spectral_bins = 0;  ///< bins of the spectral image; 0: none

@@ -25,7 +25,7 @@ StopRule::StopRule(const SceneParts& parts, Settings limits, std::uint32_t phase
 
 double StopRule::excess(const RunState& state) const {
     double worst = 0.0;
-    if (image_accuracy_) worst = state.readings.delta() / *image_accuracy_;
+    if (image_accuracy_) worst = state.delta / *image_accuracy_;
     if (sensors_asked_) {
         worst = std::max({worst, state.readings.worst_sensor(parts_, limits_),
                           state.worst_receiver(parts_, limits_)});

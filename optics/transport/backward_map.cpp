@@ -23,26 +23,33 @@ BackwardMap::BackwardMap(const Phase& phase, const Radii& radii,
     : phase_(&phase), radii_(&radii), locks_(std::make_shared<Locks>()) {
     block_starts_.push_back(0);
     for (const auto& block : blocks) block_starts_.push_back(block_starts_.back() + block.size());
-    photons_.resize(block_starts_.back());
-    sums_.resize(photons_.size());
-    touched_.resize(photons_.size());
-    for_each_block(blocks.size(), threads, [&](std::size_t i) {
-        std::copy(blocks[i].begin(), blocks[i].end(),
-                  photons_.begin() + static_cast<std::ptrdiff_t>(block_starts_[i]));
-        blocks[i] = {};
+    const std::size_t count = block_starts_.back();
+    photons_ = RawArray<BackwardPhoton>(count);
+    sums_ = RawArray<KernelSums>(count);
+    touched_ = RawArray<std::uint8_t>(count);
+    std::vector<std::uint8_t> accepted(blocks.size());
+    for_each_block(blocks.size(), threads, [&](std::size_t block) {
+        std::size_t i = block_starts_[block];
+        for (const BackwardPhoton& photon : blocks[block]) {
+            photons_.construct(i, photon);
+            sums_.construct(i, {});
+            touched_.construct(i++, 0);
+            accepted[block] |= photon.accepts;
+        }
+        blocks[block] = {};
     });
-    for (const BackwardPhoton& photon : photons_) accepted_ |= photon.accepts;
+    for (const std::uint8_t of_block : accepted) accepted_ |= of_block;
     build_grid(threads);
 }
 
 void BackwardMap::build_grid(int threads) {
     if (photons_.empty()) return;
     bucket_mask_ = std::bit_ceil(4 * photons_.size()) - 1;
-    const std::size_t blocks = (photons_.size() + photons_per_task - 1) / photons_per_task;
-    grid_.build(bucket_mask_ + 1, blocks, threads, [&](std::size_t block, auto&& put) {
+    const std::size_t tasks = tasks_for(photons_.size());
+    const auto emit = [&](std::size_t task, auto&& put) {
         std::vector<std::size_t> seen;  // of one photon
-        const std::size_t end = std::min(photons_.size(), (block + 1) * photons_per_task);
-        for (std::size_t i = block * photons_per_task; i < end; ++i) {
+        const std::size_t end = (task + 1) * photons_.size() / tasks;
+        for (std::size_t i = task * photons_.size() / tasks; i < end; ++i) {
             const Vec3& position = photons_[i].point.position;
             const std::uint32_t patch = kernel_patch(phase_->stage, photons_[i].point);
             const double radius_m = (*radii_)[patch];
@@ -62,7 +69,9 @@ void BackwardMap::build_grid(int threads) {
                 }
             }
         }
-    });
+    };
+    grid_.build<Candidate>(bucket_mask_ + 1, tasks, threads, emit,
+                           [](std::size_t, const Candidate& candidate) { return candidate; });
 }
 
 template <typename Use>

@@ -86,11 +86,11 @@ private:
 
     const Phase* phase_ = nullptr;
     const Radii* radii_ = nullptr;
-    std::vector<BackwardPhoton> photons_;
+    RawArray<BackwardPhoton> photons_;
     std::uint8_t accepted_ = 0;  // by any of them
     std::vector<std::size_t> block_starts_;
-    std::vector<KernelSums> sums_;  // of f dPhi, by two radii
-    std::vector<std::uint8_t> touched_;
+    RawArray<KernelSums> sums_;  // of f dPhi, by two radii
+    RawArray<std::uint8_t> touched_;
     std::size_t bucket_mask_ = 0;
     BucketTable<Candidate> grid_;  // each photon stands in all cells that its kernel meets
     struct Locks;

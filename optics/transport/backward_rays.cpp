@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "core/parallel.h"
 
 namespace lucerna::optics {
 namespace {
 
-constexpr std::size_t rays_per_block = 1024;
+constexpr std::size_t rays_per_block = 256;
 // Backward rays that all sensors of an observer share in a phase, within limits per point.
 constexpr std::size_t sensor_rays_per_phase = 20000;
 // Backward rays of an image in a phase: enough for their stratification to pay, within limits per
@@ -41,16 +45,17 @@ std::size_t tile_of(std::size_t pixels) {
 }
 
 struct Pixel {
-    float deviation;  // of the luminance of a ray
-    float cost;       // segments of its path
+    float log2_wish;  // of rays, in proportion: deviation of a ray / sqrt(its cost)
+    float cost;       // segments of a ray's path
 };
 
 // Sum over the pixels around each one, up to `reach` of them to each side.
 template <typename T>
-std::vector<T> summed_around(int width, int height, const T* values, int reach) {
+std::vector<T> summed_around(int width, int height, const T* values, int reach, int threads) {
     const auto along = [&](const T* from, int count, int lines, int step, int line_step) {
         std::vector<T> sums(static_cast<std::size_t>(count * lines));
-        for (int line = 0; line < lines; ++line) {
+        for_each_block(static_cast<std::size_t>(lines), threads, [&](std::size_t of_line) {
+            const int line = static_cast<int>(of_line);
             for (int i = 0; i < count; ++i) {
                 T sum{};
                 for (int k = std::max(0, i - reach); k <= std::min(count - 1, i + reach); ++k) {
@@ -58,7 +63,7 @@ std::vector<T> summed_around(int width, int height, const T* values, int reach) 
                 }
                 sums[static_cast<std::size_t>(i * step + line * line_step)] = sum;
             }
-        }
+        });
         return sums;
     };
     const std::vector<T> rows = along(values, width, height, 1, width);
@@ -69,9 +74,12 @@ std::vector<T> summed_around(int width, int height, const T* values, int reach) 
 // Where each pixel had one ray only, as in large images, half of the variance is that of a wider
 // surrounding: nine rays miss most of the rare bright events of a region. (With four rays a pixel
 // that gains nothing, and edges are blurred: 9 % more error of a diffuse room.)
-std::vector<Pixel> pixels_of(const Camera& camera, const RaySums* sums) {
+std::vector<Pixel> pixels_of(const Camera& camera, const RaySums* sums, int threads) {
     constexpr int wide = 4;
-    const std::vector<RaySums> near = summed_around(camera.width, camera.height, sums, 1);
+    const auto around = [&](const auto* values, int reach) {
+        return summed_around(camera.width, camera.height, values, reach, threads);
+    };
+    const std::vector<RaySums> near = around(sums, 1);
     std::vector<float> variances;
     for (const RaySums& rays : near) {
         const float mean = rays.luminance / rays.rays;
@@ -79,39 +87,43 @@ std::vector<Pixel> pixels_of(const Camera& camera, const RaySums* sums) {
     }
     if (sums->rays <= 1.0f) {
         const std::vector<float> ones(near.size(), 1.0f);
-        const std::vector<float> around =
-            summed_around(camera.width, camera.height, variances.data(), wide);
-        const std::vector<float> counts =
-            summed_around(camera.width, camera.height, ones.data(), wide);
+        const std::vector<float> sums_around = around(variances.data(), wide);
+        const std::vector<float> counts = around(ones.data(), wide);
         for (std::size_t i = 0; i < variances.size(); ++i) {
-            variances[i] = 0.5f * (variances[i] + around[i] / counts[i]);
+            variances[i] = 0.5f * (variances[i] + sums_around[i] / counts[i]);
         }
     }
     std::vector<Pixel> result;
     for (std::size_t i = 0; i < near.size(); ++i) {
-        result.push_back({std::sqrt(variances[i]), near[i].segments / near[i].rays});
+        const float cost = near[i].segments / near[i].rays;
+        result.push_back({0.5f * std::log2(variances[i] / cost), cost});
     }
     return result;
 }
 
-// log2 of the number of rays of each pixel, within limits.
-std::vector<std::uint8_t> rays_log2(const std::vector<Pixel>& pixels, double scale, double least,
-                                    double most) {
-    std::vector<std::uint8_t> log2;
-    log2.reserve(pixels.size());
-    for (const Pixel& pixel : pixels) {
-        const double rays = std::clamp(
-            scale * static_cast<double>(pixel.deviation / std::sqrt(pixel.cost)), least, most);
-        log2.push_back(static_cast<std::uint8_t>(std::lround(std::log2(rays))));
-    }
-    return log2;
-}
+// How many rays pixels get for their wishes.
+struct Scale {
+    float log2_scale;
+    float log2_least, log2_most;  // of a pixel
 
-double cost_of(const std::vector<Pixel>& pixels, const std::vector<std::uint8_t>& log2) {
-    double cost = 0.0;
-    for (std::size_t i = 0; i < pixels.size(); ++i)
-        cost += std::ldexp(static_cast<double>(pixels[i].cost), log2[i]);
-    return cost;
+    std::uint8_t rays_log2(const Pixel& pixel) const {
+        return static_cast<std::uint8_t>(
+            std::clamp(log2_scale + pixel.log2_wish, log2_least, log2_most) + 0.5f);
+    }
+};
+
+// Segments of all rays.
+double cost_of(const std::vector<Pixel>& pixels, const Scale& scale, int threads) {
+    constexpr std::size_t per_block = 1 << 12;
+    std::vector<double> costs((pixels.size() + per_block - 1) / per_block);
+    for_each_block(costs.size(), threads, [&](std::size_t block) {
+        const std::size_t end = std::min(pixels.size(), (block + 1) * per_block);
+        for (std::size_t i = block * per_block; i < end; ++i) {
+            const auto rays = static_cast<double>(1u << scale.rays_log2(pixels[i]));
+            costs[block] += rays * static_cast<double>(pixels[i].cost);
+        }
+    });
+    return std::accumulate(costs.begin(), costs.end(), 0.0);
 }
 
 }  // namespace
@@ -190,7 +202,7 @@ std::vector<BinBlock> BackwardRays::some_of_images(const SceneParts& parts,
     std::vector<BinBlock> some;
     const std::size_t count = std::min(most, of_images.size());
     for (std::size_t i = 0; i < count; ++i) {
-        some.push_back(of_images[i * of_images.size() / count]);
+        some.push_back(of_images[spread_out(i, count, of_images.size())]);
     }
     return some;
 }
@@ -210,31 +222,39 @@ std::size_t BackwardRays::bytes() const {
 }
 
 void BackwardRays::share_out(const SceneParts& parts, const Readings& readings,
-                             const std::vector<RaySums>& sums, bool noise_everywhere) {
+                             const std::vector<RaySums>& sums, bool noise_everywhere, int threads) {
     for (std::size_t i = 0; i < observers_.size(); ++i) {
         const ObserverBins& bins = readings.observers()[i];
         if (!is_camera(parts, bins)) continue;
         Shares& own = observers_[i];
-        const std::vector<Pixel> pixels = pixels_of(
-            std::get<Camera>(parts.observers[bins.observer]), sums.data() + bins.first_bin);
-        float largest = 0.0f;
+        const std::vector<Pixel> pixels =
+            pixels_of(std::get<Camera>(parts.observers[bins.observer]),
+                      sums.data() + bins.first_bin, threads);
+        constexpr float none = -std::numeric_limits<float>::infinity();
+        float largest = none;
         double cost = 0.0;
         for (const Pixel& pixel : pixels) {
-            largest = std::max(largest, pixel.deviation);
+            largest = std::max(largest, pixel.log2_wish);
             cost += static_cast<double>(pixel.cost);
         }
-        if (largest == 0.0f) continue;
+        if (largest == none) continue;
         own.most = most_times_even * own.even;
         const double least = noise_everywhere ? 2 * own.even : std::max(1u, own.even / 2);
         const double wanted = (noise_everywhere ? 1.25 : 2.0) * least * cost;
-        // The cost grows with the scale in steps: the largest that is not above what is wanted.
-        double low = 0.0, high = own.most * 1e6 / static_cast<double>(largest);
-        for (int step = 0; step < 60; ++step) {
-            const double scale = 0.5 * (low + high);
-            (cost_of(pixels, rays_log2(pixels, scale, least, own.most)) <= wanted ? low : high) =
-                scale;
+        // The cost grows with the scale in steps: the largest that is not above what is wanted,
+        // from the least rays for all to the most even for a millionth of the largest wish.
+        Scale scale{.log2_scale = 0.0f,
+                    .log2_least = static_cast<float>(std::log2(least)),
+                    .log2_most = std::log2(static_cast<float>(own.most))};
+        float low = scale.log2_least - largest, high = scale.log2_most - largest + 20.0f;
+        for (int step = 0; step < 24; ++step) {
+            scale.log2_scale = 0.5f * (low + high);
+            (cost_of(pixels, scale, threads) <= wanted ? low : high) = scale.log2_scale;
         }
-        own.log2 = rays_log2(pixels, low, least, own.most);
+        scale.log2_scale = low;
+        own.log2.resize(pixels.size());
+        std::ranges::transform(pixels, own.log2.begin(),
+                               [&](const Pixel& pixel) { return scale.rays_log2(pixel); });
     }
     number(readings);
 }
@@ -254,7 +274,7 @@ BackwardRays BackwardRays::through_tiles(const SceneParts& parts, const Readings
 }
 
 void BackwardRays::look_at_kernels(const SceneParts& parts, const Readings& readings,
-                                   std::span<const std::vector<RaySums>> pilots) {
+                                   std::span<const std::vector<RaySums>> pilots, int threads) {
     const auto phases = static_cast<float>(pilots.size());
     for (std::size_t i = 0; i < observers_.size(); ++i) {
         const ObserverBins& bins = readings.observers()[i];
@@ -283,10 +303,11 @@ void BackwardRays::look_at_kernels(const SceneParts& parts, const Readings& read
             variances[at] += (squares - sum * sum / phases) / (phases - 1.0f);
         }
         const std::vector<float> counts =
-            summed_around(width, height, std::vector<float>(tiles, 1.0f).data(), 1);
-        const std::vector<float> products_around = summed_around(width, height, products.data(), 1);
-        variances = summed_around(width, height, variances.data(), 1);
-        barriers = summed_around(width, height, barriers.data(), 1);
+            summed_around(width, height, std::vector<float>(tiles, 1.0f).data(), 1, threads);
+        const std::vector<float> products_around =
+            summed_around(width, height, products.data(), 1, threads);
+        variances = summed_around(width, height, variances.data(), 1, threads);
+        barriers = summed_around(width, height, barriers.data(), 1, threads);
         // Standard deviation of the mean product if there is no bias.
         const float luck = pilots.size() < 2 ? 0.0f : std::sqrt(2.0f / (phases * (phases - 1.0f)));
         std::vector<Kernel> of_tiles(tiles);

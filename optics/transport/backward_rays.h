@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 
 #include "optics/transport/readings.h"
@@ -62,6 +63,16 @@ struct RaySums {
     }
 };
 
+/// The i-th of `count` among `all` blocks: one of each of as many equal parts, but not the same one
+/// of each, as blocks at equal distances may stand below each other in an image.
+inline std::size_t spread_out(std::size_t i, std::size_t count, std::size_t all) {
+    constexpr double golden_ratio = 0.6180339887498949;
+    const double turns = golden_ratio * static_cast<double>(i);
+    const std::size_t first = i * all / count, end = (i + 1) * all / count;
+    return first +
+           static_cast<std::size_t>((turns - std::floor(turns)) * static_cast<double>(end - first));
+}
+
 /// The rays and kernels of each bin, the same in all phases: they must not follow what phases find.
 class BackwardRays {
 public:
@@ -104,7 +115,7 @@ public:
     /// many in all, if noise is everywhere, which a pilot phase does not measure well.
     /// @param sums  per bin, of the rays of a pilot phase.
     void share_out(const SceneParts& parts, const Readings& readings,
-                   const std::vector<RaySums>& sums, bool noise_everywhere);
+                   const std::vector<RaySums>& sums, bool noise_everywhere, int threads);
 
     /// Looks for kernels that barriers cut, and narrows those of pixels where the surface's are
     /// shown to be biased, as beside an edge of shadow: so far that the sum of the squares of noise
@@ -112,7 +123,7 @@ public:
     /// @param pilots  of each of some pilot phases with as many photons as those of a run: per bin,
     ///                what the rays of through_tiles() read. A single one shows no bias.
     void look_at_kernels(const SceneParts& parts, const Readings& readings,
-                         std::span<const std::vector<RaySums>> pilots);
+                         std::span<const std::vector<RaySums>> pilots, int threads);
     /// The same kernels as those of other rays of the same observers.
     void take_kernels(const BackwardRays& other);
 

@@ -10,9 +10,9 @@
 namespace lucerna::optics {
 namespace {
 
-constexpr std::size_t rays_per_task = 4096;
+constexpr std::size_t rays_per_task = 512;
 constexpr std::size_t gathers_per_task = 256;
-constexpr std::size_t tasks_per_chunk = 64;  // deposits of a chunk are held at once
+constexpr std::size_t tasks_per_chunk = 256;  // deposits of a chunk are held at once
 
 using Work = std::function<void()>;
 
@@ -86,15 +86,15 @@ public:
         const Radii& radii = caustic ? plan_.caustic_radii : plan_.indirect_radii;
         const std::uint32_t rays = caustic ? plan_.caustic_rays : plan_.indirect_rays;
         ForwardTally unused(stage_.parts());
-        const std::vector<Photon> photons = trace_photons(
+        const auto photons = trace_photon_lists(
             phase_, context_,
             caustic ? Emission(phase_, RandomPurpose::caustic, plan_.caustic_guide, rays)
                     : Emission(phase_, RandomPurpose::indirect),
             caustic ? Reach::first_scattering : Reach::whole_path, mask(history), rays, unused);
-        if (photons.empty()) return rates;
+        for (const auto& list : photons) rates.build.items += list.size();
+        if (rates.build.items == 0) return rates;
 
         ForwardMap map;
-        rates.build.items = photons.size();
         set_per_s(rates.build, best_of_all_threads([&](int threads) {
                       map = ForwardMap(stage_, radii, photons, rays, threads);
                   }));
@@ -178,7 +178,8 @@ private:
             1.0, static_cast<double>(effort_.paths) / static_cast<double>(plan_.rays.per_phase()));
         const auto count = std::max<std::size_t>(
             1, static_cast<std::size_t>(share * static_cast<double>(all.size())));
-        for (std::size_t i = 0; i < count; ++i) some.push_back(all[i * all.size() / count]);
+        for (std::size_t i = 0; i < count; ++i)
+            some.push_back(all[spread_out(i, count, all.size())]);
         return some;
     }
 

@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::uint32_t pilot_rays = 1 << 16;
 constexpr std::uint32_t rays_per_task = 1 << 10;
+constexpr std::size_t photons_per_task = 1 << 9;
 constexpr std::uint64_t points_per_observer = 1 << 14;
 constexpr std::uint8_t all_light =
     mask(History::direct) | mask(History::caustic) | mask(History::indirect);
@@ -41,9 +42,9 @@ void add_seen(const Phase& phase, const TraceContext& context, const Settings& s
         const ForwardMaps no_maps;
         for_each_block(count, context.threads, [&](std::size_t block) {
             BackwardTally tally;
-            stored[block] =
-                trace_backward(phase, {to_first_event, to_first_event}, observers[i], rays,
-                               blocks[block * step], context.planes, no_maps, unused, tally);
+            stored[block] = trace_backward(phase, {to_first_event, to_first_event}, observers[i],
+                                           rays, blocks[spread_out(block, count, blocks.size())],
+                                           context.planes, no_maps, unused, tally);
         });
         for (const auto& block : stored) {
             seen.vertices.insert(seen.vertices.end(), block.begin(), block.end());
@@ -90,26 +91,37 @@ EmissionGuide guide_of_caustics(const Phase& phase, const TraceContext& context,
         throughputs.push_back(phase.luminous(vertex.throughput));
     }
     const BackwardMap map(phase, radii, {seen.vertices}, context.threads);
-    const auto for_each_found = [&](const Photon& photon, const auto& use) {
-        BackwardMap::Deposits found;
-        map.find(photon, found);
-        for (const auto& part : found.by_part) {
-            for (const auto& pair : part) {
-                const BackwardPhoton& vertex = seen.vertices[pair.backward_photon];
-                // The map knows one radius for all points of a plane.
-                const bool within = vertex.point.object != no_object ||
-                                    (photon.point.position - vertex.point.position).norm() <
-                                        radii.of_point(vertex.bin);
-                if (within) use(pair.backward_photon);
-            }
+    using Found = BackwardMap::Deposits;
+    // Calls use(vertex, number of the photon, its flux as the vertex passes it on).
+    const auto for_each_found = [&](const Found& found, std::size_t part, const auto& use) {
+        for (const auto& [number, of_photon] : found.by_part[part]) {
+            const BackwardPhoton& vertex = seen.vertices[number];
+            const Photon& photon = found.photons[of_photon];
+            // The map knows one radius for all points of a plane.
+            const bool within =
+                vertex.point.object != no_object ||
+                (photon.point.position - vertex.point.position).norm() < radii.of_point(vertex.bin);
+            if (!within) continue;
+            use(number, of_photon,
+                throughputs[number] * luminous_flux(phase.wavelengths.luminance, photon));
         }
     };
 
     std::vector<double> light(throughputs.size());  // that each vertex finds
-    for (const Photon& photon : photons.photons) {
-        const double flux_lm = luminous_flux(phase.wavelengths.luminance, photon);
-        for_each_found(photon, [&](std::uint32_t i) { light[i] += throughputs[i] * flux_lm; });
-    }
+    std::vector<Found> found((photons.photons.size() + photons_per_task - 1) / photons_per_task);
+    for_each_block(found.size(), context.threads, [&](std::size_t task) {
+        const std::size_t end = std::min(photons.photons.size(), (task + 1) * photons_per_task);
+        for (std::size_t i = task * photons_per_task; i < end; ++i) {
+            map.find(photons.photons[i], found[task]);
+        }
+    });
+    for_each_block(BackwardMap::parts, context.threads, [&](std::size_t part) {
+        for (const Found& of_task : found) {
+            for_each_found(of_task, part, [&](std::uint32_t vertex, std::uint32_t, double flux_lm) {
+                light[vertex] += flux_lm;
+            });
+        }
+    });
     std::vector<double> squares(seen.target_count());  // what a variance is compared with
     for (std::size_t i = 0; i < light.size(); ++i) squares[seen.targets[i]] += light[i] * light[i];
 
@@ -118,20 +130,25 @@ EmissionGuide guide_of_caustics(const Phase& phase, const TraceContext& context,
     for_each_block(pilot_rays / rays_per_task, context.threads, [&](std::size_t task) {
         ForwardTally unused(context.stage.parts());
         const auto first = static_cast<std::uint32_t>(task) * rays_per_task;
+        Found by_rays;
+        std::vector<std::uint32_t> ray_of_photon;
         for (std::uint32_t i = first; i < first + rays_per_task; ++i) {
             RandomStream random = emission.random(i);
             rays[i].departure = emission.depart(i, random);
-            trace_forward(
-                phase, emission, i, Reach::first_scattering, &context.planes, unused,
-                [&](const Photon& photon) {
-                    if (photon.history != History::caustic) return;
-                    const double flux_lm = luminous_flux(phase.wavelengths.luminance, photon);
-                    for_each_found(photon, [&](std::uint32_t found) {
-                        const double square_of_all = squares[seen.targets[found]];
-                        if (square_of_all > 0.0) {
-                            rays[i].use += square(throughputs[found] * flux_lm) / square_of_all;
-                        }
-                    });
+            trace_forward(phase, emission, i, Reach::first_scattering, &context.planes, unused,
+                          [&](const Photon& photon) {
+                              if (photon.history != History::caustic) return;
+                              map.find(photon, by_rays);
+                              ray_of_photon.resize(by_rays.photons.size(), i);
+                          });
+        }
+        for (std::size_t part = 0; part < BackwardMap::parts; ++part) {
+            for_each_found(
+                by_rays, part, [&](std::uint32_t vertex, std::uint32_t photon, double flux_lm) {
+                    const double square_of_all = squares[seen.targets[vertex]];
+                    if (square_of_all > 0.0) {
+                        rays[ray_of_photon[photon]].use += square(flux_lm) / square_of_all;
+                    }
                 });
         }
     });

@@ -10,8 +10,6 @@
 namespace lucerna::optics {
 namespace {
 
-constexpr std::uint32_t most_photons = (1u << 30) - 1;
-
 // Elsewhere the distance along the surface may be longer than the straight one.
 bool is_straight(const Stage& stage, const SurfacePoint& p) {
     return p.object == no_object || !unrolls(stage.parts().objects[p.object].shape, p.patch);
@@ -63,32 +61,35 @@ Vec3 kernel_direction(const Frame& frame, const Photon& photon) {
     return {wi.x() * stretch, wi.y() * stretch, cosine};
 }
 
-ForwardMap::ForwardMap(const Stage& stage, const Radii& radii, const std::vector<Photon>& photons,
-                       std::uint64_t rays, int threads)
-    : bucket_mask_(std::bit_ceil(std::max<std::size_t>(2 * photons.size(), 16)) - 1),
-      photons_(photons.size()),
-      rays_(static_cast<double>(rays)) {
-    const std::size_t blocks = (photons.size() + photons_per_task - 1) / photons_per_task;
-    grid_.build(bucket_mask_ + 1, blocks, threads, [&](std::size_t block, auto&& put) {
-        const std::size_t end = std::min(photons.size(), (block + 1) * photons_per_task);
-        for (std::size_t i = block * photons_per_task; i < end; ++i) {
-            const Photon& photon = photons[i];
-            const Vec3& position = photon.point.position;
-            const std::uint32_t patch = kernel_patch(stage, photon.point);
-            const CellKey cell = CellKey::at(patch, position, radii[patch]);
-            put(cell.hash() & bucket_mask_,
-                {position.cast<float>(), static_cast<std::uint32_t>(i) & most_photons,
-                 photon.direction.dot(photon.point.normal) < 0.0, photon.on_common_lane});
+ForwardMap::ForwardMap(const Stage& stage, const Radii& radii,
+                       std::span<const std::vector<Photon>> photons, std::uint64_t rays,
+                       int threads)
+    : rays_(static_cast<double>(rays)) {
+    std::vector<std::size_t> starts{0};  // of the lists
+    for (const auto& list : photons) starts.push_back(starts.back() + list.size());
+    const std::size_t count = starts.back();
+    bucket_mask_ = std::bit_ceil(std::max<std::size_t>(2 * count, 16)) - 1;
+    photons_ = RawArray<Photon>(count);
+    const std::size_t tasks = tasks_for(count);
+    const auto emit = [&](std::size_t task, auto&& put) {
+        const std::size_t end = (task + 1) * count / tasks;
+        std::size_t i = task * count / tasks;
+        auto list = static_cast<std::size_t>(std::ranges::upper_bound(starts, i) - starts.begin());
+        for (; i < end; ++list) {
+            for (; i < std::min(end, starts[list]); ++i) {
+                const Photon& photon = photons[list - 1][i - starts[list - 1]];
+                const std::uint32_t patch = kernel_patch(stage, photon.point);
+                const CellKey cell = CellKey::at(patch, photon.point.position, radii[patch]);
+                put(cell.hash() & bucket_mask_, &photon);
+            }
         }
-    });
-    const std::span<Candidate> candidates = grid_.items();
-    for_each_block(blocks, threads, [&](std::size_t block) {
-        const std::size_t end = std::min(photons.size(), (block + 1) * photons_per_task);
-        for (std::size_t i = block * photons_per_task; i < end; ++i) {
-            photons_[i] = photons[candidates[i].photon];
-            candidates[i].photon = static_cast<std::uint32_t>(i) & most_photons;
-        }
-    });
+    };
+    const auto place = [&](std::size_t i, const Photon* photon) {
+        photons_.construct(i, *photon);
+        return Candidate{photon->point.position.cast<float>(),
+                         photon->direction.dot(photon->point.normal) < 0.0, photon->on_common_lane};
+    };
+    grid_.build<const Photon*>(bucket_mask_ + 1, tasks, threads, emit, place);
 }
 
 // Calls use(candidate, photon, its weight in the narrow kernel).
@@ -130,6 +131,7 @@ void ForwardMap::for_each_in_kernel(const Stage& stage, const GatherPoint& at, d
     std::array<std::uint32_t, 64> near;
     for (std::size_t i = 0; i < count; ++i) {
         const std::span<const Candidate> bucket = grid_.bucket(buckets[i]);
+        const std::size_t start = grid_.start(buckets[i]);
         for (std::size_t first = 0; first < bucket.size(); first += near.size()) {
             // Without a branch for each: which ones are near cannot be foreseen.
             const std::size_t end = std::min(bucket.size(), first + near.size());
@@ -141,7 +143,7 @@ void ForwardMap::for_each_in_kernel(const Stage& stage, const GatherPoint& at, d
             for (std::size_t k = 0; k < found; ++k) {
                 const Candidate& candidate = bucket[near[k]];
                 if (!(candidate.above ? at.from_above : at.from_below)) continue;
-                const Photon& photon = photons_[candidate.photon];
+                const Photon& photon = photons_[start + near[k]];
                 const double distance_m2 = (photon.point.position - centre).squaredNorm();
                 if (distance_m2 >= square_m2 || kernel_patch(stage, photon.point) != patch)
                     continue;

@@ -110,8 +110,9 @@ struct KernelSums {
 class ForwardMap {
 public:
     ForwardMap() = default;
-    /// @param rays  number of forward rays whose photons these are.
-    ForwardMap(const Stage& stage, const Radii& radii, const std::vector<Photon>& photons,
+    /// @param photons  lists of them; their order counts, how they are split does not.
+    /// @param rays     number of forward rays whose photons these are.
+    ForwardMap(const Stage& stage, const Radii& radii, std::span<const std::vector<Photon>> photons,
                std::uint64_t rays, int threads);
 
     /// Scattered radiance at a point from the photons around it.
@@ -127,9 +128,8 @@ private:
     // patch.
     struct Candidate {
         Eigen::Vector3f position;
-        std::uint32_t photon : 30;
-        std::uint32_t above : 1;           // it arrives on the side of the normal
-        std::uint32_t on_common_lane : 1;  // as Photon's
+        bool above;           // it arrives on the side of the normal
+        bool on_common_lane;  // as Photon's
     };
     template <typename Use>
     void for_each_in_kernel(const Stage& stage, const GatherPoint& at, double cell_m,
@@ -137,7 +137,7 @@ private:
 
     BucketTable<Candidate> grid_;  // cell size: the patch's radius
     std::size_t bucket_mask_ = 0;
-    std::vector<Photon> photons_;  // in the order of the grid
+    RawArray<Photon> photons_;  // in the order of the grid
     double rays_ = 1.0;
 };
 

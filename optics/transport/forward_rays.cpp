@@ -8,7 +8,7 @@ namespace lucerna::optics {
 namespace {
 
 constexpr std::uint32_t least_forward_rays = 20000;
-constexpr std::size_t pilot_blocks = 32;
+constexpr std::size_t pilot_blocks = 128;
 // A pilot's photons are a quarter of a phase's: their noise is the larger and shows the better.
 constexpr std::uint32_t pilot_share = 4;
 // Costs over that of a segment of a forward ray, as measured in two boxes, an office, a room with

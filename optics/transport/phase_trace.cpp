@@ -9,7 +9,7 @@
 namespace lucerna::optics {
 namespace {
 
-constexpr std::uint32_t blocks_per_chunk = 64;  // deposits of a chunk are held at once
+constexpr std::uint32_t blocks_per_chunk = 256;  // deposits of a chunk are held at once
 // That share wavelengths where those of the phase would be too few: to look up all spectra for them
 // takes about a tenth of their time.
 constexpr std::uint32_t rays_of_own_wavelengths = 32;
@@ -30,18 +30,6 @@ std::uint32_t times_traced(const TraceContext& context, Reach reach) {
     return traces_planes_apart(context, reach) && context.stage.has_scattering() ? 2 : 1;
 }
 
-// All lists in one, in their order.
-std::vector<Photon> joined(const std::vector<std::vector<Photon>>& lists, int threads) {
-    std::vector<std::size_t> starts{0};
-    for (const auto& list : lists) starts.push_back(starts.back() + list.size());
-    std::vector<Photon> all(starts.back());
-    for_each_block(lists.size(), threads, [&](std::size_t i) {
-        std::copy(lists[i].begin(), lists[i].end(),
-                  all.begin() + static_cast<std::ptrdiff_t>(starts[i]));
-    });
-    return all;
-}
-
 // The photons of one history: caustics need no path beyond the first scattering event.
 ForwardMap forward_map(const Phase& phase, const TraceContext& context, History history,
                        const Emission& emission, std::uint32_t rays, const Radii& radii,
@@ -49,14 +37,14 @@ ForwardMap forward_map(const Phase& phase, const TraceContext& context, History 
     const bool caustic = history == History::caustic;
     const Reach reach = caustic ? Reach::first_scattering : Reach::whole_path;
     const Stopwatch watch;
-    const std::vector<Photon> photons =
-        trace_photons(phase, context, emission, reach, mask(history), rays, tally);
+    const auto photons =
+        trace_photon_lists(phase, context, emission, reach, mask(history), rays, tally);
     counts.caustic_s += watch.seconds();
     counts.caustic_rays += std::uint64_t{times_traced(context, reach)} * rays;
-    counts.forward_photons += photons.size();
     counts.forward_segments += tally.segments;
     const Stopwatch map_watch;
     ForwardMap map(context.stage, radii, photons, rays, context.threads);
+    counts.forward_photons += map.size();
     counts.maps_s += map_watch.seconds();
     return map;
 }
@@ -98,6 +86,8 @@ void deposit(const Phase& phase, const TraceContext& context, std::uint32_t rays
             trace.counts.scattering_hits += hits[block];
         }
         for (const std::uint64_t deposited : applied) trace.counts.deposits += deposited;
+        // To free so many small lists takes a while.
+        for_each_block(deposits.size(), context.threads, [&](std::size_t i) { deposits[i] = {}; });
     }
     trace.balance_rays = rays;
     trace.counts.secondary_rays += rays;
@@ -118,9 +108,10 @@ bool Plan::traces_secondary(const Stage& stage, const SensorPlanes& planes) cons
     return collections.deposits() || !gathers(stage, planes, History::indirect);
 }
 
-std::vector<Photon> trace_photons(const Phase& phase, const TraceContext& context,
-                                  const Emission& emission, Reach reach, std::uint8_t histories,
-                                  std::uint32_t rays, ForwardTally& tally) {
+std::vector<std::vector<Photon>> trace_photon_lists(const Phase& phase, const TraceContext& context,
+                                                    const Emission& emission, Reach reach,
+                                                    std::uint8_t histories, std::uint32_t rays,
+                                                    ForwardTally& tally) {
     const Stage& stage = context.stage;
     const bool own_wavelengths = traces_planes_apart(context, reach);
     const std::uint32_t blocks = block_count(rays);
@@ -159,7 +150,18 @@ std::vector<Photon> trace_photons(const Phase& phase, const TraceContext& contex
             tally.segments += tallies[task].segments;
         }
     }
-    return joined(photons, context.threads);
+    return photons;
+}
+
+std::vector<Photon> trace_photons(const Phase& phase, const TraceContext& context,
+                                  const Emission& emission, Reach reach, std::uint8_t histories,
+                                  std::uint32_t rays, ForwardTally& tally) {
+    std::vector<Photon> all;
+    for (const auto& list :
+         trace_photon_lists(phase, context, emission, reach, histories, rays, tally)) {
+        all.insert(all.end(), list.begin(), list.end());
+    }
+    return all;
 }
 
 void trace_caustic_map(const Phase& phase, const TraceContext& context, const Plan& plan,

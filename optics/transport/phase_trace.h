@@ -14,7 +14,7 @@
 namespace lucerna::optics {
 
 /// Forward rays that one task traces.
-inline constexpr std::uint32_t forward_rays_per_block = 256;
+inline constexpr std::uint32_t forward_rays_per_block = 128;
 
 /// What is chosen before the first phase and then kept: it must not follow what phases find.
 struct Plan {
@@ -55,10 +55,14 @@ struct PhaseTrace {
     std::vector<std::vector<std::uint64_t>> lights_found;  ///< [observer][light], see BinRays
 };
 
-/// Photons of the given histories, or-ed, of the rays of a forward trace, in the order of the rays.
-/// Behind dispersive glass a ray has a single wavelength, and a phase few of them: light that
-/// reaches planes of sensors before it scatters is traced once more, each block of rays with
-/// wavelengths of its own, and those photons come last.
+/// Photons of the given histories, or-ed, of the rays of a forward trace, in the order of the rays;
+/// as the lists of its tasks, and all in one. Behind dispersive glass a ray has a single
+/// wavelength, and a phase few of them: light that reaches planes of sensors before it scatters is
+/// traced once more, each block of rays with wavelengths of its own, and those photons come last.
+std::vector<std::vector<Photon>> trace_photon_lists(const Phase& phase, const TraceContext& context,
+                                                    const Emission& emission, Reach reach,
+                                                    std::uint8_t histories, std::uint32_t rays,
+                                                    ForwardTally& tally);
 std::vector<Photon> trace_photons(const Phase& phase, const TraceContext& context,
                                   const Emission& emission, Reach reach, std::uint8_t histories,
                                   std::uint32_t rays, ForwardTally& tally);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/parallel.h"
 #include "optics/transport/forward_map.h"
 
 namespace lucerna::optics {
@@ -41,6 +42,15 @@ LightByRadius LightByRadius::around(const Vec3& point, const std::vector<Arrival
         light.third_moment[i - 1] += light.third_moment[i];
     }
     return light;
+}
+
+std::vector<LightByRadius> LightByRadius::around(const std::vector<Vec3>& points,
+                                                 const std::vector<Arrival>& photons,
+                                                 double limit_m, int threads) {
+    std::vector<LightByRadius> lights(points.size());
+    for_each_block(points.size(), threads,
+                   [&](std::size_t i) { lights[i] = around(points[i], photons, limit_m); });
+    return lights;
 }
 
 std::vector<std::vector<Arrival>> arrivals_by_patch(const Stage& stage, const SensorPlanes& planes,

@@ -33,6 +33,10 @@ struct LightByRadius {
     /// A photon at the point itself is no evidence about it.
     static LightByRadius around(const Vec3& point, const std::vector<Arrival>& photons,
                                 double limit_m);
+    /// Around each of some points.
+    static std::vector<LightByRadius> around(const std::vector<Vec3>& points,
+                                             const std::vector<Arrival>& photons, double limit_m,
+                                             int threads);
     /// Sum of flux times x (1 - 3/2 x^2 / r^2), as in kernels: of a step, but not of a slope.
     Vec3 moment_of_step(std::size_t i) const {
         return moment[i] - 1.5 * std::ldexp(1.0, static_cast<int>(i)) * third_moment[i];

@@ -18,7 +18,7 @@ constexpr std::uint32_t rays_to_learn_widths = 1 << 16, rays_to_widen = 1 << 18;
 constexpr double default_sensor_accuracy = 0.02;  // where none is asked for
 // What the choice of the collection for images is made from.
 constexpr std::uint32_t pilot_phases = 3;
-constexpr std::size_t pilot_blocks = 24;
+constexpr std::size_t pilot_blocks = 96;
 // That tell where kernels of pixels are cut or biased.
 constexpr std::uint32_t phases_to_look = 3;
 constexpr std::uint32_t min_forward_rays = 20000;
@@ -76,9 +76,10 @@ bool widen_around_sensors(const TraceContext& context, const Settings& settings,
                                           mask(History::caustic), rays, unused),
                             rays, phase.wavelengths.luminance};
     };
-    plan.caustic_radii = widened_around(
-        context.stage, context.planes, plan.caustic_radii, pilot(pilot_phase - pilot_phases - 2),
-        pilot(pilot_phase - pilot_phases - 3), points, accuracy, plan.caustic_rays);
+    plan.caustic_radii =
+        widened_around(context.stage, context.planes, plan.caustic_radii,
+                       pilot(pilot_phase - pilot_phases - 2), pilot(pilot_phase - pilot_phases - 3),
+                       points, accuracy, plan.caustic_rays, context.threads);
     return true;
 }
 
@@ -111,7 +112,7 @@ void choose_radii(const TraceContext& context, const Settings& settings, Plan& p
             narrow_radii(stage, context.planes, caustic,
                          {meters ? photons_per_kernel_of_meters : photons_per_kernel_of_images,
                           photons_per_sensor_kernel},
-                         plan.caustic_rays, true);
+                         plan.caustic_rays, true, context.threads);
     };
     choose_caustic_radii(of(History::caustic));
     if (plan.gathers(stage, context.planes, History::caustic)) {
@@ -142,9 +143,9 @@ void choose_radii(const TraceContext& context, const Settings& settings, Plan& p
     }
     plan.hidden_radii = narrow_radii(stage, context.planes, photons,
                                      {photons_per_hidden_kernel, photons_per_hidden_kernel},
-                                     plan.secondary_rays, false);
+                                     plan.secondary_rays, false, context.threads);
     const PilotPhotons indirect = of(History::indirect);
-    plan.indirect_radii = wide_radii(stage, context.planes, indirect);
+    plan.indirect_radii = wide_radii(stage, context.planes, indirect, context.threads);
     plan.indirect_rays = settings.forward_rays.value_or(
         std::clamp(rays_for(stage, indirect, plan.indirect_radii,
                             photons_per_ray_of_wide_kernel * plan.rays.per_gather()),
@@ -211,7 +212,7 @@ void look_at_kernels(const TraceContext& context, const Settings& settings, Plan
         const Phase phase(context.stage, settings.seed, pilot_phase - pilot_phases - 4 - i);
         sums.push_back(pilot_rays(phase, context, pilot));
     }
-    plan.rays.look_at_kernels(parts, context.readings, sums);
+    plan.rays.look_at_kernels(parts, context.readings, sums, context.threads);
 }
 
 // More rays for pixels with more noise. A user who states the rays of a pixel gets just those.
@@ -226,7 +227,7 @@ void share_out_rays(const TraceContext& context, const Settings& settings, Plan&
     if (pilot.rays.blocks().empty()) return;
     const Phase phase(context.stage, settings.seed, pilot_phase - pilot_phases - 1);
     plan.rays.share_out(parts, context.readings, pilot_rays(phase, context, pilot),
-                        plan.collections.cameras.reaches_second_event());
+                        plan.collections.cameras.reaches_second_event(), context.threads);
 }
 
 }  // namespace

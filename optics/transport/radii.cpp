@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "core/parallel.h"
 #include "optics/transport/forward_map.h"
 #include "optics/transport/pilot_light.h"
 
@@ -13,18 +14,18 @@ constexpr std::size_t probes_per_patch = 64;
 constexpr std::size_t neighbours = 12;
 
 // Median over some of the points of the squared distance to their `neighbours`-th nearest.
-double median_square_distance(const std::vector<Arrival>& points) {
-    std::vector<double> probes;
+double median_square_distance(const std::vector<Arrival>& points, int threads) {
     const std::size_t step = std::max<std::size_t>(1, points.size() / probes_per_patch);
-    for (std::size_t i = 0; i < points.size(); i += step) {
+    std::vector<double> probes((points.size() + step - 1) / step);
+    for_each_block(probes.size(), threads, [&](std::size_t i) {
         std::vector<double> squares;
         squares.reserve(points.size());
         for (const Arrival& other : points) {
-            squares.push_back((other.position - points[i].position).squaredNorm());
+            squares.push_back((other.position - points[i * step].position).squaredNorm());
         }
         std::nth_element(squares.begin(), squares.begin() + neighbours, squares.end());
-        probes.push_back(squares[neighbours]);
-    }
+        probes[i] = squares[neighbours];
+    });
     std::nth_element(probes.begin(), probes.begin() + static_cast<long>(probes.size() / 2),
                      probes.end());
     return probes[probes.size() / 2];
@@ -35,17 +36,15 @@ double median_square_distance(const std::vector<Arrival>& points) {
 constexpr double bias_of_surfaces = 0.15;
 constexpr double noise_allowed = 2.0;
 
-// The widest radius, at most limit_m, whose bias keeps within the limit at the points, and that of
-// the next narrower one as well: a lucky look must not decide.
-double radius_of_small_bias(const std::vector<Arrival>& photons, const std::vector<Vec3>& points,
-                            double limit_m) {
+// The widest radius, at most limit_m, whose bias keeps within the limit where photons are, and that
+// of the next narrower one as well: a lucky look must not decide.
+double radius_of_small_bias(const std::vector<Arrival>& photons, double limit_m, int threads) {
     constexpr std::size_t most_points = 64;
     constexpr double least_photons = 4.0;  // per point
-    const std::size_t stride = std::max<std::size_t>(1, points.size() / most_points);
-    std::vector<LightByRadius> of_points;
-    for (std::size_t i = 0; i < points.size(); i += stride) {
-        of_points.push_back(LightByRadius::around(points[i], photons, limit_m));
-    }
+    const std::size_t stride = std::max<std::size_t>(1, photons.size() / most_points);
+    std::vector<Vec3> points;
+    for (std::size_t i = 0; i < photons.size(); i += stride) points.push_back(photons[i].position);
+    const auto of_points = LightByRadius::around(points, photons, limit_m, threads);
     const auto n = static_cast<double>(of_points.size());
     bool wider_passed = false;
     double radius_m = limit_m;
@@ -78,7 +77,7 @@ double radius_of_small_bias(const std::vector<Arrival>& photons, const std::vect
 
 // @param photons  of the pilot trace in a kernel; what surfaces and sensors ask for comes on top.
 Radii radii_of(const Stage& stage, const SensorPlanes& planes, const PilotPhotons& pilot,
-               const PhotonsPerKernel& photons, bool seen) {
+               const PhotonsPerKernel& photons, bool seen, int threads) {
     const auto arrivals = arrivals_by_patch(stage, planes, pilot);
     std::vector<double> radii_m;
     radii_m.reserve(arrivals.size());
@@ -89,13 +88,11 @@ Radii radii_of(const Stage& stage, const SensorPlanes& planes, const PilotPhoton
         const double photons_per_kernel = sensor ? photons.of_sensors : photons.of_surfaces;
         if (arrivals[patch].size() > 2 * neighbours && photons_per_kernel < infinity) {
             // n photons within d: density n / (pi d^2); wanted K = density * pi r^2.
-            const double square_m2 = median_square_distance(arrivals[patch]);
+            const double square_m2 = median_square_distance(arrivals[patch], threads);
             radius_m = std::min(limit_m, std::sqrt(photons_per_kernel * square_m2 / neighbours));
         }
         if (seen && !sensor && arrivals[patch].size() > 2 * neighbours) {
-            std::vector<Vec3> points;
-            for (const Arrival& photon : arrivals[patch]) points.push_back(photon.position);
-            radius_m = radius_of_small_bias(arrivals[patch], points, radius_m);
+            radius_m = radius_of_small_bias(arrivals[patch], radius_m, threads);
         }
         radii_m.push_back(radius_m);
     }
@@ -114,14 +111,15 @@ Radii Radii::at_phase(std::uint32_t number) const {
 }
 
 Radii narrow_radii(const Stage& stage, const SensorPlanes& planes, const PilotPhotons& pilot,
-                   const PhotonsPerKernel& photons, std::uint32_t rays, bool seen) {
+                   const PhotonsPerKernel& photons, std::uint32_t rays, bool seen, int threads) {
     const double share = static_cast<double>(pilot.rays) / rays;
     return radii_of(stage, planes, pilot, {share * photons.of_surfaces, share * photons.of_sensors},
-                    seen);
+                    seen, threads);
 }
 
-Radii wide_radii(const Stage& stage, const SensorPlanes& planes, const PilotPhotons& pilot) {
-    return radii_of(stage, planes, pilot, {infinity, infinity}, true);
+Radii wide_radii(const Stage& stage, const SensorPlanes& planes, const PilotPhotons& pilot,
+                 int threads) {
+    return radii_of(stage, planes, pilot, {infinity, infinity}, true, threads);
 }
 
 std::uint32_t rays_for(const Stage& stage, const PilotPhotons& pilot, const Radii& radii,

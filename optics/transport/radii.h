@@ -55,11 +55,12 @@ struct PhotonsPerKernel {
 ///
 /// Where kernels are `seen`, those of surfaces are narrowed until they show no more bias than 15 %.
 Radii narrow_radii(const Stage& stage, const SensorPlanes& planes, const PilotPhotons& pilot,
-                   const PhotonsPerKernel& photons, std::uint32_t rays, bool seen);
+                   const PhotonsPerKernel& photons, std::uint32_t rays, bool seen, int threads);
 
 /// The same for seen surfaces whatever number of photons their kernels hold: as wide as the limits
 /// and the bias allow.
-Radii wide_radii(const Stage& stage, const SensorPlanes& planes, const PilotPhotons& pilot);
+Radii wide_radii(const Stage& stage, const SensorPlanes& planes, const PilotPhotons& pilot,
+                 int threads);
 
 /// Number of forward rays of a phase for which kernels of surfaces hold about `photons_per_kernel`
 /// photons, in the mean over the photons of the pilot trace; 0 without photons.

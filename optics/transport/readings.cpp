@@ -118,22 +118,26 @@ Readings::Readings(const SceneParts& parts, const Settings& settings)
     spectral_sum_.resize(bins * spectral_bins_);
 }
 
-void Readings::fold_means(const PhaseReadings& values, const ObserverBins& bins,
+void Readings::fold_means(const PhaseReadings& values, const ObserverBins& bins, int threads,
                           ImageMeans& means) {
     const std::size_t columns = tiles_along(means.width);
     std::vector<double> sums(means.tiles.size());
     std::vector<double> biases(means.tiles.size());
     std::vector<double> pixels(means.tiles.size());
-    for (std::size_t row = 0; row < means.height; ++row) {
-        for (std::size_t column = 0; column < means.width; ++column) {
-            const PhaseReadings::Value& value =
-                values.values_[bins.first_bin + row * means.width + column];
-            const std::size_t tile = row / Image::tile_size * columns + column / Image::tile_size;
-            sums[tile] += value.y;
-            biases[tile] += value.y_bias;
-            pixels[tile] += 1.0;
+    constexpr std::size_t size = Image::tile_size;
+    for_each_block(tiles_along(means.height), threads, [&](std::size_t row_of_tiles) {
+        const std::size_t end = std::min(means.height, (row_of_tiles + 1) * size);
+        for (std::size_t row = row_of_tiles * size; row < end; ++row) {
+            for (std::size_t column = 0; column < means.width; ++column) {
+                const PhaseReadings::Value& value =
+                    values.values_[bins.first_bin + row * means.width + column];
+                const std::size_t tile = row_of_tiles * columns + column / size;
+                sums[tile] += value.y;
+                biases[tile] += value.y_bias;
+                pixels[tile] += 1.0;
+            }
         }
-    }
+    });
     double sum = 0.0;
     double bias = 0.0;
     for (std::size_t tile = 0; tile < means.tiles.size(); ++tile) {
@@ -146,11 +150,11 @@ void Readings::fold_means(const PhaseReadings& values, const ObserverBins& bins,
 }
 
 void Readings::fold(const Phase& phase, PhaseReadings& values, int threads) {
-    for_each_block(observers_.size(), threads, [&](std::size_t i) {
-        if (is_camera_[i]) fold_means(values, observers_[i], means_[i]);
-    });
+    for (std::size_t i = 0; i < observers_.size(); ++i) {
+        if (is_camera_[i]) fold_means(values, observers_[i], threads, means_[i]);
+    }
     fold_sensors(phase, values);
-    constexpr std::size_t block = 1 << 14;
+    constexpr std::size_t block = 1 << 10;
     for_each_block((luminance_.size() + block - 1) / block, threads, [&](std::size_t b) {
         const std::size_t end = std::min(luminance_.size(), (b + 1) * block);
         for (std::size_t bin = b * block; bin < end; ++bin) {
@@ -209,33 +213,55 @@ void Readings::fold_sensors(const Phase& phase, PhaseReadings& readings) {
     sensors_.add(values);
 }
 
-Readings::ImageError Readings::image_error(const ObserverBins& bins) const {
-    double noise = 0.0;      // of the pixels as estimated
-    double corrected = 0.0;  // with the whole bias taken off
-    double correction_noise = 0.0;
-    double bias = 0.0;
-    ImageError error;
-    for (std::size_t bin = bins.first_bin; bin < bins.first_bin + bins.count; ++bin) {
-        const Estimate& pixel = luminance_[bin];
-        noise += std::pow(pixel.mean_standard_error(), 2);
-        corrected += std::pow(pixel.standard_error(), 2);
-        correction_noise += std::pow(pixel.bias_standard_error(), 2);
-        bias += pixel.bias() * pixel.bias();
+Readings::ImageError Readings::image_error(const ObserverBins& bins, int threads) const {
+    struct Sums {
+        double noise = 0.0;      // of the pixels as estimated
+        double corrected = 0.0;  // with the whole bias taken off
+        double correction_noise = 0.0;
+        double mean_square = 0.0, product = 0.0, bias_square = 0.0;  // of means and biases
+    };
+    constexpr std::size_t per_block = 1 << 11;
+    std::vector<Sums> blocks((bins.count + per_block - 1) / per_block);
+    for_each_block(blocks.size(), threads, [&](std::size_t block) {
+        Sums& sums = blocks[block];
+        const std::size_t end = std::min(bins.count, (block + 1) * per_block);
+        for (std::size_t bin = block * per_block; bin < end; ++bin) {
+            const Estimate& pixel = luminance_[bins.first_bin + bin];
+            const double mean = pixel.mean(), bias = pixel.bias();
+            sums.noise += std::pow(pixel.mean_standard_error(), 2);
+            sums.corrected += std::pow(pixel.standard_error(), 2);
+            sums.correction_noise += std::pow(pixel.bias_standard_error(), 2);
+            sums.mean_square += mean * mean;
+            sums.product += mean * bias;
+            sums.bias_square += bias * bias;
+        }
+    });
+    Sums all;
+    for (const Sums& sums : blocks) {
+        all.noise += sums.noise;
+        all.corrected += sums.corrected;
+        all.correction_noise += sums.correction_noise;
+        all.mean_square += sums.mean_square;
+        all.product += sums.product;
+        all.bias_square += sums.bias_square;
     }
-    bias = std::max(0.0, bias - correction_noise);  // its own noise would else pass for bias
+    // The noise of the bias would else pass for bias.
+    const double bias = std::max(0.0, all.bias_square - all.correction_noise);
+    ImageError error;
     // The error of v - c b is Var v - 2 c Cov(v, b) + c^2 Var b + (1 - c)^2 bias^2; least at
+    // c = (bias^2 + Cov) / (bias^2 + Var b).
     // With a single phase nothing is known of either, and all of the bias is taken off.
-    const bool known = std::isfinite(noise);
-    const double covariance = known ? 0.5 * (noise + correction_noise - corrected) : 0.0;
-    if (known && bias + correction_noise > 0.0) {
-        error.correction = std::clamp((bias + covariance) / (bias + correction_noise), 0.0, 1.0);
+    const bool known = std::isfinite(all.noise);
+    const double covariance =
+        known ? 0.5 * (all.noise + all.correction_noise - all.corrected) : 0.0;
+    if (known && bias + all.correction_noise > 0.0) {
+        error.correction =
+            std::clamp((bias + covariance) / (bias + all.correction_noise), 0.0, 1.0);
     }
     const double c = error.correction;
-    error.noise = noise - 2.0 * c * covariance + c * c * correction_noise;
+    error.noise = all.noise - 2.0 * c * covariance + c * c * all.correction_noise;
     error.bias = (1.0 - c) * (1.0 - c) * bias;
-    for (std::size_t bin = bins.first_bin; bin < bins.first_bin + bins.count; ++bin) {
-        error.square += std::pow(luminance_[bin].value(c), 2);
-    }
+    error.square = all.mean_square - 2.0 * c * all.product + c * c * all.bias_square;
     return error;
 }
 
@@ -252,12 +278,12 @@ double Readings::image_variance() const {
     return sum;
 }
 
-double Readings::delta() const {
+double Readings::delta(int threads) const {
     double variance = 0.0;
     double square = 0.0;
     for (std::size_t i = 0; i < observers_.size(); ++i) {
         if (!is_camera_[i]) continue;
-        const ImageError error = image_error(observers_[i]);
+        const ImageError error = image_error(observers_[i], threads);
         variance += error.noise;
         square += error.square;
     }
@@ -280,7 +306,7 @@ std::vector<Image> Readings::images(const SceneParts& parts) const {
             luminance_.begin() + first + static_cast<std::ptrdiff_t>(bins.count));
         image.tiles = means_[i].tiles;
         image.mean = means_[i].whole;
-        const ImageError error = image_error(bins);
+        const ImageError error = image_error(bins, 1);
         image.correction = error.correction;
         if (error.square > 0.0) {
             image.delta = std::sqrt(error.noise / error.square);

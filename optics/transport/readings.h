@@ -98,7 +98,7 @@ public:
     /// Sum over the pixels of all cameras of the variance over phases.
     double image_variance() const;
     /// delta of METHOD eq. (6) over the pixels of all cameras; 0 without a camera.
-    double delta() const;
+    double delta(int threads) const;
     /// Largest ratio of the expanded uncertainty of a sensor to what is asked for; 0 without
     /// sensors of which anything is asked.
     double worst_sensor(const SceneParts& parts, const Settings& targets) const;
@@ -118,10 +118,10 @@ private:
         double square = 0.0, noise = 0.0, bias = 0.0;
     };
 
-    static void fold_means(const PhaseReadings& values, const ObserverBins& bins,
+    static void fold_means(const PhaseReadings& values, const ObserverBins& bins, int threads,
                            ImageMeans& means);
     void fold_sensors(const Phase& phase, PhaseReadings& readings);
-    ImageError image_error(const ObserverBins& bins) const;
+    ImageError image_error(const ObserverBins& bins, int threads) const;
     Uncertain result_of_sensor(const Calibration& calibration, std::size_t bin) const;
     std::optional<Colour> colour(const Calibration& calibration, std::size_t sensor_bin) const;
 

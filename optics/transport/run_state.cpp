@@ -52,6 +52,7 @@ void RunState::fold(const SceneParts& parts, const Phase& phase, PhaseTrace& tra
                     int lanes) {
     const Stopwatch watch;
     readings.fold(phase, trace.readings, threads);
+    if (++phases > 1) delta = readings.delta(threads);
     counts.readings_s += watch.seconds();
     const auto rays = static_cast<double>(trace.balance_rays);
     for (std::size_t i = 0; i < parts.receivers.size(); ++i) {
@@ -67,7 +68,6 @@ void RunState::fold(const SceneParts& parts, const Phase& phase, PhaseTrace& tra
     const auto maps = static_cast<std::uint64_t>(lanes);
     forward_map_bytes = std::max(forward_map_bytes, maps * trace.forward_map_bytes);
     backward_map_bytes = std::max(backward_map_bytes, maps * trace.backward_map_bytes);
-    ++phases;
 }
 
 void RunState::merge(const RunState& other) {

@@ -1,6 +1,8 @@
 // What the phases of a run add up to: enough to go on with it, and to join it with other runs.
 #pragma once
 
+#include <cmath>
+
 #include "optics/transport/phase_trace.h"
 
 namespace lucerna::optics {
@@ -30,6 +32,7 @@ struct RunState {
     std::vector<std::string> warnings;
 
     Readings readings;
+    double delta = std::nan("");     ///< of METHOD eq. (6), after the last fold(); from 2 phases on
     ForwardTally tally;              ///< of the rays that the flux balance is taken from
     std::uint64_t tally_rays = 0;    ///< their number
     std::vector<Estimate> received;  ///< per receiver: front, back [lm]

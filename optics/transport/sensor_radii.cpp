@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "core/parallel.h"
 #include "optics/transport/forward_map.h"
 #include "optics/transport/pilot_light.h"
 
@@ -28,7 +29,7 @@ struct Step {
 // elsewhere may be a thousand times as heavy.
 std::vector<Step> steps_of_radius(const std::vector<Arrival>& one,
                                   const std::vector<Arrival>& other,
-                                  const std::vector<Vec3>& points, double limit_m) {
+                                  const std::vector<Vec3>& points, double limit_m, int threads) {
     // Light with much structure at once has steps that point away from where it is brighter.
     constexpr double step_left_if_away = 0.5;
     std::vector<Step> steps(LightByRadius::steps);
@@ -36,9 +37,11 @@ std::vector<Step> steps_of_radius(const std::vector<Arrival>& one,
         steps[i].area = std::ldexp(1.0, -static_cast<int>(i));
     }
     const double share = 1.0 / static_cast<double>(points.size());
-    for (const Vec3& point : points) {
-        const LightByRadius a = LightByRadius::around(point, one, limit_m);
-        const LightByRadius b = LightByRadius::around(point, other, limit_m);
+    const auto of_one = LightByRadius::around(points, one, limit_m, threads);
+    const auto of_other = LightByRadius::around(points, other, limit_m, threads);
+    for (std::size_t point = 0; point < points.size(); ++point) {
+        const LightByRadius& a = of_one[point];
+        const LightByRadius& b = of_other[point];
         for (std::size_t i = 0; i < steps.size(); ++i) {
             steps[i].flux += 0.5 * share * (a.flux[i] + b.flux[i]);
             steps[i].variance += 0.5 * share * (a.squares[i] + b.squares[i]);
@@ -119,11 +122,11 @@ std::vector<Error> errors_of(const std::vector<Step>& steps, double at_points,
 // @param pilots_per_phase  rays of a pilot over those of a phase.
 double radius_of_least_error(const std::vector<Arrival>& one, const std::vector<Arrival>& other,
                              const std::vector<Vec3>& points, double limit_m, double accuracy,
-                             double pilots_per_phase) {
+                             double pilots_per_phase, int threads) {
     // Runs look first after 16 phases, and stop at the second look; far beyond the most it is time
     // that ends them.
     constexpr double least_phases = 19.0, most_phases = 256.0;
-    const std::vector<Step> steps = steps_of_radius(one, other, points, limit_m);
+    const std::vector<Step> steps = steps_of_radius(one, other, points, limit_m, threads);
     if (!(steps[0].flux > 0.0)) return limit_m;
     const double at_points = irradiance_at_points(steps);
     const double asked_square = square(accuracy * at_points);
@@ -152,7 +155,8 @@ double radius_of_least_error(const std::vector<Arrival>& one, const std::vector<
 
 Radii widened_around(const Stage& stage, const SensorPlanes& planes, const Radii& radii,
                      const PilotPhotons& one, const PilotPhotons& other,
-                     std::span<const ReadPoint> points, double accuracy, std::uint32_t rays) {
+                     std::span<const ReadPoint> points, double accuracy, std::uint32_t rays,
+                     int threads) {
     const auto of_one = arrivals_by_patch(stage, planes, one);
     const auto of_other = arrivals_by_patch(stage, planes, other);
     std::vector<double> widened;
@@ -163,7 +167,7 @@ Radii widened_around(const Stage& stage, const SensorPlanes& planes, const Radii
                                     double limit_m) {
         const double radius_m =
             radius_of_least_error(of_one[patch], of_other[patch], positions, limit_m, accuracy,
-                                  static_cast<double>(one.rays) / rays);
+                                  static_cast<double>(one.rays) / rays, threads);
         return std::max(least * radii[patch], radius_m);
     };
     // No kernel reaches the wall beside its point, so that the search starts there.
@@ -175,15 +179,24 @@ Radii widened_around(const Stage& stage, const SensorPlanes& planes, const Radii
     }
     std::vector<double> of_points(planes.point_count(), infinity);
     std::vector<std::vector<Vec3>> on_surfaces(stage.patch_count());
+    std::vector<ReadPoint> on_planes;
     for (const ReadPoint& read : points) {
         const std::uint32_t patch = kernel_patch(stage, read.point);
         if (patch < stage.patch_count()) {
             on_surfaces[patch].push_back(read.point.position);
-            continue;
+        } else {
+            on_planes.push_back(read);
         }
+    }
+    for_each_block(on_planes.size(), threads, [&](std::size_t i) {
+        const ReadPoint& read = on_planes[i];
         of_points[read.sensor_point] =
-            of_least_error(patch, {read.point.position}, clearances_m[read.sensor_point]);
-        widened[patch] = std::max(widened[patch], of_points[read.sensor_point]);
+            of_least_error(kernel_patch(stage, read.point), {read.point.position},
+                           clearances_m[read.sensor_point]);
+    });
+    for (const ReadPoint& read : on_planes) {
+        double& of_plane = widened[kernel_patch(stage, read.point)];
+        of_plane = std::max(of_plane, of_points[read.sensor_point]);
     }
     for (std::uint32_t patch = 0; patch < stage.patch_count(); ++patch) {
         if (!on_surfaces[patch].empty())

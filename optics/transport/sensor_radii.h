@@ -22,6 +22,7 @@ struct ReadPoint {
 /// @param rays      of a phase.
 Radii widened_around(const Stage& stage, const SensorPlanes& planes, const Radii& radii,
                      const PilotPhotons& one, const PilotPhotons& other,
-                     std::span<const ReadPoint> points, double accuracy, std::uint32_t rays);
+                     std::span<const ReadPoint> points, double accuracy, std::uint32_t rays,
+                     int threads);
 
 }  // namespace lucerna::optics

@@ -67,7 +67,7 @@ Progress progress_of(const RunState& state, const StopRule& rule) {
     const double rays = static_cast<double>(counts.backward_segments + counts.forward_segments +
                                             counts.shadow_segments);
     return {.phase = state.phases,
-            .delta = state.phases > 1 ? state.readings.delta() : std::nan(""),
+            .delta = state.delta,
             .delta_wanted = rule.image_accuracy(),
             .rays_per_s = rays / state.wall_s,
             .elapsed_s = state.wall_s,

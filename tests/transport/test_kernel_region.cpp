@@ -145,7 +145,7 @@ TEST_CASE("Light beside the foot of an object is what it is elsewhere", "[analyt
     }
     std::vector<double> of_patches(stage.patch_count(), kernel_m);
     const Radii radii(of_patches);
-    const ForwardMap map(stage, radii, photons, static_cast<std::uint64_t>(rays), 1);
+    const ForwardMap map(stage, radii, {&photons, 1}, static_cast<std::uint64_t>(rays), 1);
     const Vec3 wo = Vec3::UnitZ();
     const SurfaceOptics optics = optics_at(phase, no_object, no_object, false, 0);
     double mean = 0.0, mean_without = 0.0;

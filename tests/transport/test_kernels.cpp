@@ -70,7 +70,7 @@ Gathered gathered_of(const Field& field) {
         }
     }
     const Radii radii({kernel_radius_m});
-    const ForwardMap map(stage, radii, photons, static_cast<std::uint64_t>(rays), 1);
+    const ForwardMap map(stage, radii, {&photons, 1}, static_cast<std::uint64_t>(rays), 1);
     const SurfacePoint point{centre, Vec3::UnitZ(), plate};
     const Frame frame(point.normal);
     const Vec3 wo = Vec3::UnitZ();

@@ -69,7 +69,7 @@ TEST_CASE("Pixels whose rays differ more get more rays") {
     std::vector<RaySums> sums(count, {.rays = 4, .luminance = 0, .square = 4, .segments = 4});
     sums[special].square = 400;
     for (std::size_t bin = costly; bin < count; ++bin) sums[bin].segments = 64;
-    rays.share_out(scene.parts, readings, sums, false);
+    rays.share_out(scene.parts, readings, sums, false, 1);
     CHECK(rays.of(0, special).count > 2 * even);
     CHECK(rays.of(0, special + pixels + 1).count == rays.of(0, special).count);  // its neighbour
     CHECK(rays.of(0, count - 1).count < rays.of(0, 0).count);
@@ -106,7 +106,7 @@ TEST_CASE("Rays follow rare bright events also where the pilot met none of them"
             count, {.rays = per_pixel, .luminance = 0, .square = per_pixel, .segments = 4});
         sums[event].square = 1e4f;
         BackwardRays rays(scene.parts, readings, settings);
-        rays.share_out(scene.parts, readings, sums, false);
+        rays.share_out(scene.parts, readings, sums, false, 1);
         CHECK(rays.of(0, lonely).count >= rays.of(0, 25 * pixels + 25).count);
         return static_cast<double>(rays.of(0, lonely).count) / rays.of(0, 25 * pixels + 25).count;
     };

@@ -61,7 +61,7 @@ struct OnePoint {
         const SurfacePoint point{Vec3::Zero(), Vec3::UnitZ(), no_object, 0, 0};
         const std::vector<ReadPoint> points{{point, 0}};
         return widened_around(stage, planes, narrow, pilot(1, photons, edge_m, light),
-                              pilot(2, photons, edge_m, light), points, 0.05, 1000)
+                              pilot(2, photons, edge_m, light), points, 0.05, 1000, 1)
             .of_point(0);
     }
 };

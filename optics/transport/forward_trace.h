@@ -44,6 +44,7 @@ inline double luminous_flux(const Lanes& luminance, const Photon& photon) {
 
 /// Counts of a block of forward rays. All fluxes in lm, not yet divided by the number of rays.
 struct ForwardTally {
+    ForwardTally() = default;  ///< of no scene
     explicit ForwardTally(const SceneParts& parts)
         : absorbed_by_object(parts.objects.size(), 0.0),
           absorbed_by_solid(parts.objects.size(), 0.0),

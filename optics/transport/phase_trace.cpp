@@ -59,23 +59,27 @@ void deposit(const Phase& phase, const TraceContext& context, std::uint32_t rays
     for (std::uint32_t chunk = 0; chunk < blocks; chunk += blocks_per_chunk) {
         const std::uint32_t count = std::min(blocks_per_chunk, blocks - chunk);
         std::vector<BackwardMap::Deposits> deposits(locked ? 0 : count);
-        std::vector<ForwardTally> tallies(count, ForwardTally(context.stage.parts()));
+        std::vector<ForwardTally> tallies(count);
         std::vector<std::uint64_t> hits(count),
             applied(std::max<std::size_t>(count, BackwardMap::parts));
         for_each_block(count, context.threads, [&](std::size_t block) {
             const std::uint32_t first =
                 (chunk + static_cast<std::uint32_t>(block)) * forward_rays_per_block;
+            ForwardTally counted(context.stage.parts());
+            BackwardMap::Deposits found;
             for (std::uint32_t i = first; i < std::min(rays, first + forward_rays_per_block); ++i) {
-                trace_forward(phase, emission, i, Reach::whole_path, nullptr, tallies[block],
+                trace_forward(phase, emission, i, Reach::whole_path, nullptr, counted,
                               [&](const Photon& photon) {
                                   ++hits[block];
                                   if (locked) {
                                       applied[block] += map.deposit_locked(photon);
                                   } else {
-                                      map.find(photon, deposits[block]);
+                                      map.find(photon, found);
                                   }
                               });
             }
+            tallies[block] = std::move(counted);
+            if (!locked) deposits[block] = std::move(found);
         });
         if (!locked) {
             for_each_block(BackwardMap::parts, context.threads,
@@ -117,31 +121,36 @@ std::vector<std::vector<Photon>> trace_photon_lists(const Phase& phase, const Tr
     const std::uint32_t blocks = block_count(rays);
     const std::uint32_t tasks = own_wavelengths ? 2 * blocks : blocks;
     std::vector<std::vector<Photon>> photons(tasks);
-    std::vector<ForwardTally> tallies(tasks, ForwardTally(stage.parts()));
-    const auto trace = [&](const Phase& of_rays, std::uint32_t first, std::uint32_t end,
-                           std::size_t task, bool surfaces, bool planes) {
-        for (std::uint32_t i = first; i < end; ++i) {
-            trace_forward(of_rays, emission, i, reach, planes ? &context.planes : nullptr,
-                          tallies[task], [&](const Photon& photon) {
-                              if ((histories & mask(photon.history)) &&
-                                  (surfaces || photon.point.object == no_object)) {
-                                  photons[task].push_back(photon);
-                              }
-                          });
-        }
-    };
+    std::vector<ForwardTally> tallies(tasks);
     for_each_block(tasks, context.threads, [&](std::size_t task) {
+        std::vector<Photon> found;
+        ForwardTally counted(stage.parts());
+        const auto trace = [&](const Phase& of_rays, std::uint32_t first, std::uint32_t end,
+                               bool surfaces, bool planes) {
+            for (std::uint32_t i = first; i < end; ++i) {
+                trace_forward(of_rays, emission, i, reach, planes ? &context.planes : nullptr,
+                              counted, [&](const Photon& photon) {
+                                  if ((histories & mask(photon.history)) &&
+                                      (surfaces || photon.point.object == no_object)) {
+                                      found.push_back(photon);
+                                  }
+                              });
+            }
+        };
         const std::uint32_t first =
             static_cast<std::uint32_t>(task) % blocks * forward_rays_per_block;
         const std::uint32_t end = std::min(rays, first + forward_rays_per_block);
-        if (task < blocks) {
-            if (own_wavelengths && !stage.has_scattering()) return;
-            return trace(phase, first, end, task, true, !own_wavelengths);
+        if (task >= blocks) {
+            for (std::uint32_t i = first; i < end; i += rays_of_own_wavelengths) {
+                const Phase own(stage, phase.seed, phase.number, i / rays_of_own_wavelengths + 1);
+                trace(own, i, std::min(end, i + rays_of_own_wavelengths), false, true);
+            }
+        } else if (stage.has_scattering() || !own_wavelengths) {
+            trace(phase, first, end, true, !own_wavelengths);
         }
-        for (std::uint32_t i = first; i < end; i += rays_of_own_wavelengths) {
-            const Phase own(stage, phase.seed, phase.number, i / rays_of_own_wavelengths + 1);
-            trace(own, i, std::min(end, i + rays_of_own_wavelengths), task, false, true);
-        }
+        // Only now: what stands beside them in the lists is other threads'.
+        photons[task] = std::move(found);
+        tallies[task] = std::move(counted);
     });
     for (std::uint32_t task = 0; task < tasks; ++task) {
         if (task < blocks) {
@@ -232,9 +241,11 @@ void trace_phase(const Phase& phase, const TraceContext& context, const Plan& pl
     std::vector<std::vector<BackwardPhoton>> stored(blocks.size());
     std::vector<BackwardTally> backward_tallies(blocks.size());
     for_each_block(blocks.size(), context.threads, [&](std::size_t i) {
-        stored[i] = trace_backward(
-            phase, plan.collections, context.readings.observers()[blocks[i].observer_bins],
-            plan.rays, blocks[i], context.planes, maps, trace.readings, backward_tallies[i]);
+        BackwardTally counted;
+        stored[i] = trace_backward(phase, plan.collections,
+                                   context.readings.observers()[blocks[i].observer_bins], plan.rays,
+                                   blocks[i], context.planes, maps, trace.readings, counted);
+        backward_tallies[i] = std::move(counted);
     });
     trace.counts.backward_s += backward_watch.seconds();
     trace.lights_found.resize(context.readings.observers().size());

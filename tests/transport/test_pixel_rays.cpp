@@ -115,6 +115,26 @@ TEST_CASE("Rays follow rare bright events also where the pilot met none of them"
     CHECK(rays_of_lonely(4.0f) == 1.0);
 }
 
+TEST_CASE("Blocks spread out over an image are all others, and stand in all of its columns") {
+    constexpr std::size_t columns = 4, all = 100 * columns, count = 100;
+    std::set<std::size_t> blocks, of_columns;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t block = spread_out(i, count, all);
+        CHECK(block / columns == i);
+        blocks.insert(block);
+        of_columns.insert(block % columns);
+    }
+    CHECK(blocks.size() == count);
+    CHECK(of_columns.size() == columns);
+    CHECK(spread_out(6, 7, 7) == 6);
+    // As many of each column, within the few that any even sequence is off by.
+    for (std::size_t column = 0; column < columns; ++column) {
+        const auto in_column = std::count_if(blocks.begin(), blocks.end(),
+                                             [&](std::size_t b) { return b % columns == column; });
+        CHECK(std::abs(static_cast<double>(in_column) - count / columns) <= 2.0);
+    }
+}
+
 TEST_CASE("The rim of a lamp: pixels read what it covers of them", "[analytic]") {
     const SceneBuilder scene = disk();
     const std::vector<double> share = covered();

@@ -286,7 +286,8 @@ void BackwardRays::look_at_kernels(const SceneParts& parts, const Readings& read
         // The bias of a phase is noisy; its square is the mean product of those of two phases,
         // whose noise is independent.
         const auto tiles = static_cast<std::size_t>(width * height);
-        std::vector<float> products(tiles), variances(tiles), barriers(tiles);
+        std::vector<float> products(tiles), variances(tiles), least_variances(tiles),
+            barriers(tiles);
         for (std::size_t bin = 0; bin < bins.count; ++bin) {
             const int x = static_cast<int>(bin) % camera.width / tile;
             const int y = static_cast<int>(bin) / camera.width / tile;
@@ -296,6 +297,7 @@ void BackwardRays::look_at_kernels(const SceneParts& parts, const Readings& read
                 const RaySums& rays = pilot[bins.first_bin + bin];
                 sum += rays.kernel_bias;
                 squares += rays.kernel_bias * rays.kernel_bias;
+                least_variances[at] += rays.kernel_bias_variance / phases;
                 barriers[at] += rays.barriers;
             }
             if (pilots.size() < 2) continue;
@@ -307,6 +309,7 @@ void BackwardRays::look_at_kernels(const SceneParts& parts, const Readings& read
         const std::vector<float> products_around =
             summed_around(width, height, products.data(), 1, threads);
         variances = summed_around(width, height, variances.data(), 1, threads);
+        least_variances = summed_around(width, height, least_variances.data(), 1, threads);
         barriers = summed_around(width, height, barriers.data(), 1, threads);
         // Standard deviation of the mean product if there is no bias.
         const float luck = pilots.size() < 2 ? 0.0f : std::sqrt(2.0f / (phases * (phases - 1.0f)));
@@ -314,7 +317,9 @@ void BackwardRays::look_at_kernels(const SceneParts& parts, const Readings& read
         for (std::size_t at = 0; at < tiles; ++at) {
             of_tiles[at].barriers = barriers[at] > 0.0f;
             // By its own bias, which a tile shares with its neighbours where kernels are wider.
-            const float variance = variances[at] / counts[at];
+            // A few phases whose kernels share most photons tell a variance badly: by luck it is
+            // too small in many places.
+            const float variance = std::max(variances[at], least_variances[at]) / counts[at];
             float bias = std::min(products[at], products_around[at] / counts[at]);
             if (!(bias > deviations_of_luck * luck * variance)) continue;
             // A radius smaller by sqrt 2 has twice the noise, and at most 0.7 times the bias, as

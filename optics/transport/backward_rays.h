@@ -47,7 +47,8 @@ struct RaySums {
     float rays = 0.0f, luminance = 0.0f, square = 0.0f;
     float segments = 0.0f;     ///< of their paths, shadow rays included
     float kernel_bias = 0.0f;  ///< of the luminance gathered from the map of indirect light
-    float barriers = 0.0f;     ///< number of kernels that barriers cut
+    float kernel_bias_variance = 0.0f;                      ///< of it, at least
+    float barriers = 0.0f;                                  ///< number of kernels that barriers cut
     float caustic_photons = 0.0f, indirect_photons = 0.0f;  ///< gathered from each map
 
     RaySums& operator+=(const RaySums& other) {
@@ -56,6 +57,7 @@ struct RaySums {
         square += other.square;
         segments += other.segments;
         kernel_bias += other.kernel_bias;
+        kernel_bias_variance += other.kernel_bias_variance;
         barriers += other.barriers;
         caustic_photons += other.caustic_photons;
         indirect_photons += other.indirect_photons;

@@ -61,6 +61,8 @@ public:
                 sums->luminance += luminance;
                 sums->square += luminance * luminance;
                 sums->kernel_bias += static_cast<float>(rays.count * gathers_.kernel_bias());
+                sums->kernel_bias_variance += static_cast<float>(
+                    square(static_cast<double>(rays.count)) * gathers_.kernel_bias_variance());
                 sums->barriers += static_cast<float>(gathers_.cut_kernels());
                 sums->caustic_photons += static_cast<float>(gathers_.caustic_photons());
                 sums->indirect_photons += static_cast<float>(gathers_.indirect_photons());

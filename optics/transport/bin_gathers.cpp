@@ -23,7 +23,7 @@ void BinGathers::next_ray(std::uint32_t ray) {
     const std::uint32_t gathers = rays_.count / rays_.per_gather;
     specular_weight_ =
         ray < gathers ? static_cast<float>(rays_.count) / static_cast<float>(gathers) : 0.0f;
-    kernel_bias_ = 0.0;
+    kernel_bias_ = kernel_bias_variance_ = 0.0;
     cut_kernels_ = 0;
     caustic_photons_ = indirect_photons_ = 0;
 }
@@ -108,7 +108,12 @@ Gathered BinGathers::gathered(const GatherPoint& at, std::uint8_t histories, con
     if (found.cut) ++cut_kernels_;
     caustic_photons_ += found.caustic_photons;
     indirect_photons_ += found.indirect_photons;
-    if (camera_) kernel_bias_ += phase_.luminous(weight * found.indirect_bias);
+    if (camera_ && found.indirect_photons > 0) {
+        kernel_bias_ += phase_.luminous(weight * found.indirect_bias);
+        kernel_bias_variance_ += variance_of_bias *
+                                 square(phase_.luminous(weight * found.indirect)) /
+                                 found.indirect_photons;
+    }
     return found.light;
 }
 

@@ -29,6 +29,8 @@ public:
 
     /// Of the luminance that the ray gathered from the map of indirect light; of cameras only.
     double kernel_bias() const { return kernel_bias_; }
+    /// That bias varies at least so much, as photons are counted [of its unit squared].
+    double kernel_bias_variance() const { return kernel_bias_variance_; }
     /// Of the ray: number of kernels that barriers cut.
     int cut_kernels() const { return cut_kernels_; }
     /// Of the ray: number of photons gathered from each map.
@@ -59,7 +61,7 @@ private:
     float specular_weight_ = 1.0f;  // 0: the ray does not gather behind specular events
     int cut_kernels_ = 0;
     std::uint32_t caustic_photons_ = 0, indirect_photons_ = 0;
-    double kernel_bias_ = 0.0;
+    double kernel_bias_ = 0.0, kernel_bias_variance_ = 0.0;
 };
 
 }  // namespace lucerna::optics

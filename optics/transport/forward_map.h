@@ -48,6 +48,10 @@ constexpr double narrow_weight(double s) {
     return 6.0 * (1.0 - 2.0 * s) * (1.0 - s);
 }
 
+/// Least variance of L(r) - L_narrow over that of L, of photons of equal flux: the mean of
+/// (1 - narrow_weight(s))^2 over the disc.
+inline constexpr double variance_of_bias = 3.8;
+
 /// A step of light of height h that runs through the middle of a whole disc changes neither kernel,
 /// though the point is off by h / 2. But it is lopsided: the mean over the disc of
 /// f (d / r) (1 - 3/2 d^2 / r^2) is h / (15 pi), and that of a steady slope is 0. Times this factor

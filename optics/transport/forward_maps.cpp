@@ -35,6 +35,7 @@ ForwardMaps::Found ForwardMaps::gather(const Phase& phase, const GatherPoint& at
     }
     if (of_indirect) {
         const Gathered light = indirect.gather(phase, indirect_radii, wide);
+        found.indirect = light.radiance;
         found.indirect_bias = light.bias;
         found.indirect_photons = light.photons;
         found.light += light;

@@ -13,7 +13,8 @@ struct ForwardMaps {
 
     struct Found {
         Gathered light;                       ///< of both maps
-        Lanes indirect_bias = Lanes::Zero();  ///< of the light of the indirect map
+        Lanes indirect = Lanes::Zero();       ///< radiance from the indirect map alone
+        Lanes indirect_bias = Lanes::Zero();  ///< of it
         std::uint32_t caustic_photons = 0, indirect_photons = 0;  ///< in the kernels
         bool cut = false;                                         ///< by barriers
     };

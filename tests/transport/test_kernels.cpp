@@ -106,6 +106,19 @@ TEST_CASE("What two kernels tell of the kernel bias makes a curved field exact",
     CHECK_THAT(bias, WithinRel(-0.1, 0.01));
 }
 
+TEST_CASE("What photons make a kernel's bias vary by", "[analytic]") {
+    // Photons at even steps of s = d^2 / r^2 fill a disc evenly.
+    constexpr int steps = 10000;
+    double mean = 0.0, square_mean = 0.0;
+    for (int i = 0; i < steps; ++i) {
+        const double of_bias = 1.0 - narrow_weight((i + 0.5) / steps);
+        mean += of_bias / steps;
+        square_mean += of_bias * of_bias / steps;
+    }
+    CHECK_THAT(mean, WithinAbs(0.0, 1e-6));
+    CHECK_THAT(variance_of_bias, WithinRel(square_mean, 1e-6));
+}
+
 TEST_CASE("What two kernels tell of the kernel bias leaves a tenth of the fourth order",
           "[analytic]") {
     // The mean of d^4 over the disc is 1/3; weighed by 6 (1 - 2 d^2) (1 - d^2) it is -1/10.

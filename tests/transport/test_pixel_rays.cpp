@@ -115,6 +115,27 @@ TEST_CASE("Rays follow rare bright events also where the pilot met none of them"
     CHECK(rays_of_lonely(4.0f) == 1.0);
 }
 
+TEST_CASE("Kernels are narrowed for a bias beyond the noise of photons, and not by lucky pilots") {
+    const SceneBuilder scene = disk();
+    const Settings settings;
+    const Readings readings(scene.parts, settings);
+    constexpr std::size_t count = pixels * pixels;
+    // Three pilots that happen to agree on a bias of 1, where photons are as many as make it vary
+    // by the variance or more.
+    const auto narrowed_at = [&](float variance) {
+        const std::vector<RaySums> pilot(
+            count,
+            {.rays = 1, .segments = 1, .kernel_bias = 1.0f, .kernel_bias_variance = variance});
+        BackwardRays rays(scene.parts, readings, settings);
+        rays.look_at_kernels(scene.parts, readings, std::vector(3, pilot), 1);
+        return rays.of(0, count / 2).kernel_scale < 1.0;
+    };
+    // The mean product of three has the standard deviation variance / sqrt(3): four of them are 1.
+    CHECK(narrowed_at(0.0f));
+    CHECK(narrowed_at(0.42f));
+    CHECK_FALSE(narrowed_at(0.45f));
+}
+
 TEST_CASE("Blocks spread out over an image are all others, and stand in all of its columns") {
     constexpr std::size_t columns = 4, all = 100 * columns, count = 100;
     std::set<std::size_t> blocks, of_columns;

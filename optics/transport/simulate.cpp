@@ -119,12 +119,14 @@ void go_on(const SceneParts& parts, const Settings& asked, RunState& state, cons
     if (limits.time_limit_s) *limits.time_limit_s += before_s;
     StopRule rule(parts, limits, state.phases);
     state.stopped_by.clear();
+    const int threads = limits.threads > 0 ? limits.threads : hardware_threads();
+    if (state.phases > 1) state.delta = state.readings.delta(threads);  // it may have been loaded
     if (limits.max_phases && state.phases >= *limits.max_phases) {
         state.stopped_by = rule.check(state);
         state.accuracy_reached = rule.accuracy_reached();
         return;
     }
-    Simulation simulation(parts, state, limits.threads > 0 ? limits.threads : hardware_threads());
+    Simulation simulation(parts, state, threads);
     if (state.settings.method == Method::path && simulation.stage().has_caustics()) {
         state.warnings = {
             "path tracing does not see light of points and beams behind specular surfaces, and "

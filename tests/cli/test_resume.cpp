@@ -143,6 +143,19 @@ TEST_CASE("Joined runs have the means of all their phases, in any order of their
     CHECK(runs.report("abcd")["phases"] == 62);
 }
 
+TEST_CASE("A run that has all of its phases is judged as when it ended", "[cli]") {
+    const Runs runs;
+    const std::vector<std::string> limits{"--phases", "5", "--accuracy", "90%"};
+    std::vector<std::string> again = limits;
+    again.emplace_back("--resume");
+    REQUIRE(runs.run("a", limits).exit_code == 0);
+    const json first = runs.report("a");
+    REQUIRE(first["accuracy_reached"] == true);
+    REQUIRE(runs.run("a", again).exit_code == 0);
+    CHECK(runs.report("a")["accuracy_reached"] == true);
+    CHECK(runs.report("a")["stopped_by"] == first["stopped_by"]);
+}
+
 TEST_CASE("What cannot be joined or continued is refused before anything is written", "[cli]") {
     const Runs runs;
     runs.run("a", {"--phases", "2"});

@@ -2,6 +2,8 @@
 #include <set>
 
 #include "optics/transport/backward_rays.h"
+#include "optics/transport/plan.h"
+#include "tests/support/cornell_scenes.h"
 #include "tests/support/truth_checks.h"
 
 using namespace lucerna;
@@ -134,6 +136,42 @@ TEST_CASE("Kernels are narrowed for a bias beyond the noise of photons, and not 
     CHECK(narrowed_at(0.0f));
     CHECK(narrowed_at(0.42f));
     CHECK_FALSE(narrowed_at(0.45f));
+}
+
+TEST_CASE("The bias of kernels varies over phases about as photons are counted") {
+    constexpr std::uint32_t phases = 16;
+    const SceneBuilder scene = test::cornell_diffuse(24);
+    Settings settings;
+    settings.method = Method::forward;
+    const Stage stage(scene.parts);
+    const SensorPlanes planes(stage.parts(), stage.caster(), 0.1);
+    const Readings readings(scene.parts, settings);
+    const TraceContext context{stage, planes, readings, Scheduler::ordered, 1};
+    Plan plan = make_plan(context, settings);
+    plan.rays = BackwardRays::through_tiles(scene.parts, readings);
+    const std::size_t count = readings.bin_count();
+    std::vector<double> sums(count), squares(count);
+    double counted = 0.0;
+    for (std::uint32_t i = 0; i < phases; ++i) {
+        const Phase phase(stage, 7, i);
+        PhaseTrace trace(context);
+        const ForwardMaps maps = forward_maps(phase, context, plan, 0, trace);
+        const auto rays = trace_single_rays(phase, context, plan, maps, plan.rays.blocks());
+        for (std::size_t bin = 0; bin < count; ++bin) {
+            const auto bias = static_cast<double>(rays[bin].kernel_bias);
+            sums[bin] += bias;
+            squares[bin] += bias * bias;
+            counted += static_cast<double>(rays[bin].kernel_bias_variance) / phases;
+        }
+    }
+    double measured = 0.0;
+    for (std::size_t bin = 0; bin < count; ++bin) {
+        measured += (squares[bin] - sums[bin] * sums[bin] / phases) / (phases - 1.0);
+    }
+    INFO("sums of variances: " << measured << " measured, " << counted << " from counts");
+    REQUIRE(counted > 0.0);
+    CHECK(measured > 0.8 * counted);
+    CHECK(measured < 2.0 * counted);  // kernels that rims cut have more
 }
 
 TEST_CASE("Blocks spread out over an image are all others, and stand in all of its columns") {

@@ -112,9 +112,7 @@ double Estimate::bias_standard_error() const {
 }
 
 double Estimate::bias_left() const {
-    // The square of a measured bias holds that of its noise.
-    const double square = bias() * bias() - std::pow(bias_standard_error(), 2);
-    return square > 0.0 ? 0.5 * std::sqrt(square) : 0.0;
+    return 0.5 * std::sqrt(std::max(0.0, bias_square()));
 }
 
 double Estimate::standard_error(double correction) const {
@@ -122,6 +120,26 @@ double Estimate::standard_error(double correction) const {
     const double squares = sum_of_squares_ - 2.0 * correction * product_sum_ +
                            correction * correction * bias_sum_of_squares_;
     return std::sqrt(variance_of_mean(sum_ - correction * bias_sum_, squares, count_));
+}
+
+double Estimate::bias_square() const {
+    return std::pow(bias(), 2) - std::pow(bias_standard_error(), 2);
+}
+
+double Estimate::correction(double expected_bias) const {
+    if (count_ < 2) return 1.0;
+    const double noise = std::pow(bias_standard_error(), 2);
+    // As far from 0 as 4 standard deviations of a normal distribution (Wallace, Annals of
+    // Mathematical Statistics 30 (1959), 1121: t^2 = v (exp(u^2 / v) - 1)).
+    const double degrees = degrees_of_freedom();
+    const bool is_clear = std::pow(bias(), 2) > degrees * std::expm1(16.0 / degrees) * noise;
+    const double square = is_clear ? bias_square() : expected_bias * expected_bias;
+    if (!(square + noise > 0.0)) return 1.0;
+    // Var(v - b) = Var v - 2 Cov(v, b) + Var b. The error of v - c b is
+    // Var v - 2 c Cov(v, b) + c^2 Var b + (1 - c)^2 square.
+    const double covariance =
+        0.5 * (std::pow(mean_standard_error(), 2) + noise - std::pow(standard_error(), 2));
+    return std::clamp((square + covariance) / (square + noise), 0.0, 1.0);
 }
 
 double Estimate::expanded_uncertainty(double coverage) const {

@@ -51,6 +51,11 @@ public:
     /// over phases; infinite for fewer than two phases.
     double value(double correction = 1.0) const { return mean() - correction * bias(); }
     double standard_error(double correction = 1.0) const;
+    /// The share of the bias to take off for the least mean square error of value(), since the
+    /// correction has noise of its own: by the measured bias where that is clear of its noise, else
+    /// by `expected_bias`, the root mean square of biases such as this one. 1 for fewer than two
+    /// phases.
+    double correction(double expected_bias) const;
     Uncertain corrected() const {
         return {value(), standard_error(), degrees_of_freedom(), 1.0, bias_left()};
     }
@@ -64,6 +69,8 @@ public:
     double mean_standard_error() const;
     double bias() const;
     double bias_standard_error() const;
+    /// Square of the bias without that of its noise, on average; below 0 by chance.
+    double bias_square() const;
 
     /// Saves to an archive or loads from one.
     template <typename Archive>

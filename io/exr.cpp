@@ -196,11 +196,13 @@ void write_exr(const std::filesystem::path& path, const optics::Image& image,
                const Provenance& provenance) {
     Planes planes(image, provenance);
     const auto estimate = [&](std::size_t i) -> const Estimate& { return image.luminance[i]; };
-    const double correction = image.correction;
-    planes.add("luminance.Y", [&](std::size_t i) { return estimate(i).value(correction); });
+    planes.add("luminance.Y",
+               [&](std::size_t i) { return estimate(i).value(image.correction(i)); });
     planes.add("luminance.standard_error",
-               [&](std::size_t i) { return estimate(i).standard_error(correction); });
+               [&](std::size_t i) { return estimate(i).standard_error(image.correction(i)); });
     planes.add("luminance.bias", [&](std::size_t i) { return estimate(i).bias(); });
+    planes.add("luminance.correction",
+               [&](std::size_t i) { return -image.correction(i) * estimate(i).bias(); });
     const double degrees = image.mean.degrees_of_freedom();
     const double t = degrees >= 1.0 ? student_t(report_coverage, degrees) : infinity;
     planes.add("luminance.expanded_uncertainty", [&](std::size_t i) {
@@ -213,7 +215,6 @@ void write_exr(const std::filesystem::path& path, const optics::Image& image,
     Imf::Header& header = planes.header();
     header.insert("units", Imf::StringAttribute("cd/m2"));
     header.insert("delta", Imf::DoubleAttribute(image.delta));
-    header.insert("biasCorrection", Imf::DoubleAttribute(correction));
     header.insert("coverage", Imf::DoubleAttribute(report_coverage));
     header.insert("meanStandardError", Imf::DoubleAttribute(image.mean.standard_error()));
     header.insert("tileSize", Imf::IntAttribute(optics::Image::tile_size));

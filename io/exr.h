@@ -20,7 +20,8 @@ struct Provenance {
 
 /// Luminance with its error, and colour:
 ///
-///   luminance.Y, luminance.standard_error, luminance.bias    [cd/m2], as in the report
+///   luminance.Y, luminance.standard_error, luminance.bias,
+///   luminance.correction    [cd/m2], as in the report; the last is added to the mean for the bias
 ///   R, G, B    linear, primaries of BT.709, scaled such that R = G = B = L is white of L cd/m2
 ///
 /// with the attributes chromaticities, whiteLuminance = 1, units, phases, seed, sceneHash, delta,

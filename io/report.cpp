@@ -72,7 +72,7 @@ Json image_json(const optics::Image& image, Numbers& number) {
             {"height", image.height},
             {"delta", number(image.delta, image.name + " delta")},
             {"delta_bias", number(image.delta_bias, image.name + " delta_bias")},
-            {"bias_correction", image.correction},
+            {"relative_bias", image.relative_bias},
             {"mean_luminance", number(mean.value, image.name + " mean_luminance")},
             {"mean_luminance_expanded_uncertainty",
              number(mean.expanded_uncertainty(report_coverage),

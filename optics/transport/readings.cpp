@@ -8,14 +8,17 @@
 
 namespace lucerna::optics {
 
+double Image::correction(std::size_t i) const {
+    return luminance[i].correction(relative_bias * luminance[i].mean());
+}
+
 Uncertain Image::pixel(std::size_t i) const {
     const Estimate& estimate = luminance[i];
-    // The square of a measured bias holds that of its noise.
-    const double bias =
-        std::max(0.0, std::pow(estimate.bias(), 2) - std::pow(estimate.bias_standard_error(), 2));
-    const double left = 1.0 - correction;
-    const double noise = estimate.standard_error(correction);
-    return {estimate.value(correction), std::sqrt(noise * noise + left * left * bias),
+    const double share = correction(i);
+    // A bias that is taken off leaves half of it at most: see Estimate::bias_left.
+    const double left =
+        std::max(1.0 - share, 0.5) * std::sqrt(std::max(0.0, estimate.bias_square()));
+    return {estimate.value(share), std::hypot(estimate.standard_error(share), left),
             estimate.degrees_of_freedom()};
 }
 
@@ -24,6 +27,13 @@ namespace {
 std::size_t tiles_along(std::size_t pixels) {
     constexpr std::size_t size = Image::tile_size;
     return (pixels + size - 1) / size;
+}
+
+// Root of a ratio of sums over pixels; 0 where noise makes the first negative, and where nothing is
+// known of it after a single phase.
+double root_of_ratio(double of_bias, double of_luminance) {
+    const double ratio = of_bias / of_luminance;
+    return std::isfinite(ratio) ? std::sqrt(std::max(0.0, ratio)) : 0.0;
 }
 
 std::size_t bins_of(const Observer& observer) {
@@ -213,56 +223,43 @@ void Readings::fold_sensors(const Phase& phase, PhaseReadings& readings) {
     sensors_.add(values);
 }
 
-Readings::ImageError Readings::image_error(const ObserverBins& bins, int threads) const {
-    struct Sums {
-        double noise = 0.0;      // of the pixels as estimated
-        double corrected = 0.0;  // with the whole bias taken off
-        double correction_noise = 0.0;
-        double mean_square = 0.0, product = 0.0, bias_square = 0.0;  // of means and biases
-    };
+void Readings::Squares::operator+=(const Squares& other) {
+    luminance += other.luminance;
+    noise += other.noise;
+    bias += other.bias;
+}
+
+// Sum of what a function tells of each pixel, the same bits for any number of threads.
+template <typename Function>
+Readings::Squares Readings::sum_over_pixels(const ObserverBins& bins, int threads,
+                                            const Function& of_pixel) const {
     constexpr std::size_t per_block = 1 << 11;
-    std::vector<Sums> blocks((bins.count + per_block - 1) / per_block);
+    std::vector<Squares> blocks((bins.count + per_block - 1) / per_block);
     for_each_block(blocks.size(), threads, [&](std::size_t block) {
-        Sums& sums = blocks[block];
         const std::size_t end = std::min(bins.count, (block + 1) * per_block);
         for (std::size_t bin = block * per_block; bin < end; ++bin) {
-            const Estimate& pixel = luminance_[bins.first_bin + bin];
-            const double mean = pixel.mean(), bias = pixel.bias();
-            sums.noise += std::pow(pixel.mean_standard_error(), 2);
-            sums.corrected += std::pow(pixel.standard_error(), 2);
-            sums.correction_noise += std::pow(pixel.bias_standard_error(), 2);
-            sums.mean_square += mean * mean;
-            sums.product += mean * bias;
-            sums.bias_square += bias * bias;
+            blocks[block] += of_pixel(luminance_[bins.first_bin + bin]);
         }
     });
-    Sums all;
-    for (const Sums& sums : blocks) {
-        all.noise += sums.noise;
-        all.corrected += sums.corrected;
-        all.correction_noise += sums.correction_noise;
-        all.mean_square += sums.mean_square;
-        all.product += sums.product;
-        all.bias_square += sums.bias_square;
-    }
-    // The noise of the bias would else pass for bias.
-    const double bias = std::max(0.0, all.bias_square - all.correction_noise);
-    ImageError error;
-    // The error of v - c b is Var v - 2 c Cov(v, b) + c^2 Var b + (1 - c)^2 bias^2; least at
-    // c = (bias^2 + Cov) / (bias^2 + Var b).
-    // With a single phase nothing is known of either, and all of the bias is taken off.
-    const bool known = std::isfinite(all.noise);
-    const double covariance =
-        known ? 0.5 * (all.noise + all.correction_noise - all.corrected) : 0.0;
-    if (known && bias + all.correction_noise > 0.0) {
-        error.correction =
-            std::clamp((bias + covariance) / (bias + all.correction_noise), 0.0, 1.0);
-    }
-    const double c = error.correction;
-    error.noise = all.noise - 2.0 * c * covariance + c * c * all.correction_noise;
-    error.bias = (1.0 - c) * (1.0 - c) * bias;
-    error.square = all.mean_square - 2.0 * c * all.product + c * c * all.bias_square;
-    return error;
+    Squares all;
+    for (const Squares& sum : blocks) all += sum;
+    return all;
+}
+
+double Readings::relative_bias(const ObserverBins& bins, int threads) const {
+    const Squares sums = sum_over_pixels(bins, threads, [](const Estimate& pixel) {
+        return Squares{square(pixel.mean()), 0.0, pixel.bias_square()};
+    });
+    return root_of_ratio(sums.bias, sums.luminance);
+}
+
+Readings::Squares Readings::of_corrected(const ObserverBins& bins, double relative_bias,
+                                         int threads) const {
+    return sum_over_pixels(bins, threads, [&](const Estimate& pixel) {
+        const double share = pixel.correction(relative_bias * pixel.mean());
+        return Squares{square(pixel.value(share)), square(pixel.standard_error(share)),
+                       square(1.0 - share) * pixel.bias_square()};
+    });
 }
 
 double Readings::image_variance() const {
@@ -272,25 +269,22 @@ double Readings::image_variance() const {
         const ObserverBins& bins = observers_[i];
         for (std::size_t bin = bins.first_bin; bin < bins.first_bin + bins.count; ++bin) {
             const Estimate& pixel = luminance_[bin];
-            sum += std::pow(pixel.mean_standard_error(), 2) * static_cast<double>(pixel.count());
+            sum += square(pixel.mean_standard_error()) * static_cast<double>(pixel.count());
         }
     }
     return sum;
 }
 
 double Readings::delta(int threads) const {
-    double variance = 0.0;
-    double square = 0.0;
+    Squares sums;
     for (std::size_t i = 0; i < observers_.size(); ++i) {
         if (!is_camera_[i]) continue;
-        const ImageError error = image_error(observers_[i], threads);
-        variance += error.noise;
-        square += error.square;
+        sums += of_corrected(observers_[i], relative_bias(observers_[i], threads), threads);
     }
-    return square > 0.0 ? std::sqrt(variance / square) : 0.0;
+    return sums.luminance > 0.0 ? std::sqrt(sums.noise / sums.luminance) : 0.0;
 }
 
-std::vector<Image> Readings::images(const SceneParts& parts) const {
+std::vector<Image> Readings::images(const SceneParts& parts, int threads) const {
     std::vector<Image> images;
     for (std::size_t i = 0; i < observers_.size(); ++i) {
         if (!is_camera_[i]) continue;
@@ -306,17 +300,16 @@ std::vector<Image> Readings::images(const SceneParts& parts) const {
             luminance_.begin() + first + static_cast<std::ptrdiff_t>(bins.count));
         image.tiles = means_[i].tiles;
         image.mean = means_[i].whole;
-        const ImageError error = image_error(bins, 1);
-        image.correction = error.correction;
-        if (error.square > 0.0) {
-            image.delta = std::sqrt(error.noise / error.square);
-            image.delta_bias = std::sqrt(error.bias / error.square);
-        }
+        image.relative_bias = relative_bias(bins, threads);
+        const Squares sums = of_corrected(bins, image.relative_bias, threads);
+        if (sums.luminance > 0.0) image.delta = std::sqrt(sums.noise / sums.luminance);
+        image.delta_bias = root_of_ratio(sums.bias, sums.luminance);
         for (std::size_t bin = 0; bin < bins.count; ++bin) {
             const Estimate& estimate = image.luminance[bin];
             // The correction keeps the pixel's colour.
-            const double scale =
-                estimate.mean() != 0.0 ? estimate.value(image.correction) / estimate.mean() : 1.0;
+            const double scale = estimate.mean() != 0.0
+                                     ? estimate.value(image.correction(bin)) / estimate.mean()
+                                     : 1.0;
             const double factor = scale / static_cast<double>(estimate.count());
             image.x.push_back(static_cast<float>(x_sum_[bins.first_bin + bin] * factor));
             image.z.push_back(static_cast<float>(z_sum_[bins.first_bin + bin] * factor));

@@ -92,7 +92,7 @@ public:
         for (StepBias& step : steps_) archive(step);
     }
 
-    std::vector<Image> images(const SceneParts& parts) const;
+    std::vector<Image> images(const SceneParts& parts, int threads) const;
     std::vector<Quantity> quantities(const SceneParts& parts) const;
     std::vector<DerivedQuantity> derived(const SceneParts& parts) const;
     /// Sum over the pixels of all cameras of the variance over phases.
@@ -112,16 +112,19 @@ private:
         Estimate whole;
     };
     // Sums over the pixels of an image: of squared luminances, of squared standard errors, and of
-    // the squared bias that its correction leaves.
-    struct ImageError {
-        double correction = 1.0;
-        double square = 0.0, noise = 0.0, bias = 0.0;
+    // squared kernel biases without their noise.
+    struct Squares {
+        double luminance = 0.0, noise = 0.0, bias = 0.0;
+        void operator+=(const Squares& other);
     };
 
     static void fold_means(const PhaseReadings& values, const ObserverBins& bins, int threads,
                            ImageMeans& means);
     void fold_sensors(const Phase& phase, PhaseReadings& readings);
-    ImageError image_error(const ObserverBins& bins, int threads) const;
+    template <typename Function>
+    Squares sum_over_pixels(const ObserverBins& bins, int threads, const Function& of_pixel) const;
+    double relative_bias(const ObserverBins& bins, int threads) const;
+    Squares of_corrected(const ObserverBins& bins, double relative_bias, int threads) const;
     Uncertain result_of_sensor(const Calibration& calibration, std::size_t bin) const;
     std::optional<Colour> colour(const Calibration& calibration, std::size_t sensor_bin) const;
 

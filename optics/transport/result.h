@@ -17,9 +17,9 @@ struct Image {
     std::string name;
     int width = 0, height = 0;
     std::vector<Estimate> luminance;  ///< per pixel [cd/m2]
-    /// Share of its measured kernel bias that is taken off each pixel: the one with the least total
-    /// error over the image, since the correction of a pixel has noise of its own.
-    double correction = 1.0;
+    /// Root mean square of the kernel bias of all pixels, without its noise, over that of their
+    /// luminance.
+    double relative_bias = 0.0;
     std::vector<float> x, z;  ///< tristimulus values X, Z on the scale of Y = pixel(i).value
     std::vector<double> bin_edges_nm;      ///< spectral_bins + 1 edges, or empty
     std::vector<float> spectral_radiance;  ///< [pixel * bins + bin], mean in the bin [W/(m2 sr nm)]
@@ -32,7 +32,9 @@ struct Image {
     double delta = 0.0;       ///< METHOD eq. 6, of the corrected pixels
     double delta_bias = 0.0;  ///< the same norm of the measured kernel bias that is left in them
 
-    /// Luminance of a pixel with its uncertainty: noise over phases, and what `correction` leaves
+    /// Share of its measured kernel bias that is taken off a pixel: see Estimate::correction.
+    double correction(std::size_t i) const;
+    /// Luminance of a pixel with its uncertainty: noise over phases, and what the correction leaves
     /// of the measured bias.
     Uncertain pixel(std::size_t i) const;
 };

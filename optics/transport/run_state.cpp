@@ -104,7 +104,7 @@ double RunState::worst_receiver(const SceneParts& parts, const Settings& targets
 
 Result RunState::result(const SceneParts& parts) const {
     Result result;
-    result.images = readings.images(parts);
+    result.images = readings.images(parts, settings.threads);
     result.quantities = readings.quantities(parts);
     for (std::size_t i = 0; i < parts.receivers.size(); ++i) {
         const std::string& name = parts.receivers[i].name;

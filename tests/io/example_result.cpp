@@ -15,14 +15,13 @@ Estimate estimate(double mean, double standard_error, double bias) {
 optics::Image example_image() {
     optics::Image image;
     image.name = "view";
-    image.correction = 0.0;
     image.width = 24;
     image.height = 20;
     image.bin_edges_nm = {400.0, 500.0, 600.0, 700.0};
     for (int y = 0; y < image.height; ++y) {
         for (int x = 0; x < image.width; ++x) {
             const double luminance = 1.0 + x + 100.0 * y;
-            image.luminance.push_back(estimate(luminance, 0.01 * luminance, -0.5));
+            image.luminance.push_back(estimate(luminance - 0.5, 0.01 * luminance, -0.5));
             image.x.push_back(static_cast<float>(luminance * 0.3127 / 0.3290));
             image.z.push_back(static_cast<float>(luminance * (1.0 - 0.3127 - 0.3290) / 0.3290));
             const int pixel = y * image.width + x;

@@ -60,6 +60,7 @@ TEST_CASE("An image carries luminance, error and bias with its provenance", "[un
     const auto luminance = channel(path, "luminance.Y");
     const auto error = channel(path, "luminance.standard_error");
     const auto bias = channel(path, "luminance.bias");
+    const auto correction = channel(path, "luminance.correction");
     for (std::size_t i = 0; i < image.luminance.size(); ++i) {
         const double expected =
             1.0 + static_cast<double>(i % 24) + 100.0 * static_cast<double>(i / 24);
@@ -67,6 +68,7 @@ TEST_CASE("An image carries luminance, error and bias with its provenance", "[un
         // The spread is a difference of squares of size L^2, so its rounding is 1e-16 / 0.01^2.
         CHECK_THAT(double{error[i]}, WithinRel(0.01 * expected, 1e-6));
         CHECK(bias[i] == -0.5F);
+        CHECK(correction[i] == 0.5F);
     }
     CHECK(attribute<Imf::StringAttribute>(path, "units") == "cd/m2");
     CHECK(attribute<Imf::IntAttribute>(path, "phases") == 7);
@@ -94,7 +96,7 @@ TEST_CASE("RGB of the equal-energy white is that of BT.709", "[unit][exr]") {
     ScratchFolder folder;
     optics::Image image = example_image();
     for (std::size_t i = 0; i < image.luminance.size(); ++i) {
-        image.x[i] = image.z[i] = static_cast<float>(image.luminance[i].mean());
+        image.x[i] = image.z[i] = static_cast<float>(image.luminance[i].value());
     }
     write_exr(folder / "view.exr", image, provenance);
     // Row sums of the XYZ to RGB matrix printed in IEC 61966-2-1: 3.2406 - 1.5372 - 0.4986, and so

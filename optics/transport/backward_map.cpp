@@ -108,7 +108,8 @@ void BackwardMap::add(std::uint32_t index, const Photon& photon) {
     const BackwardPhoton& backward = photons_[index];
     const SurfaceOptics optics = optics_at(*phase_, backward.medium_above, backward.medium_below,
                                            backward.hero_only, backward.hero);
-    const Vec3 wi = kernel_direction(bsdf_frame(*phase_, backward.point), photon);
+    const Vec3 wi = kernel_direction(bsdf_frame(*phase_, backward.point), photon.point.normal,
+                                     photon.direction);
     Lanes f = evaluate(phase_->stage.parts().bsdfs[backward.bsdf], optics, backward.wo, wi,
                        Transport::radiance);
     f *= photon.flux;

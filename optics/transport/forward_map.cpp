@@ -52,9 +52,9 @@ Gathered KernelSums::over(const KernelAreas& areas, double radius_m, double rays
             .bias = static_cast<float>(bias_per_difference(areas, radius_m)) * (radiance - inside)};
 }
 
-Vec3 kernel_direction(const Frame& frame, const Photon& photon) {
-    Vec3 wi = frame.to_local(-photon.direction);
-    const double cosine = -photon.direction.dot(photon.point.normal);
+Vec3 kernel_direction(const Frame& frame, const Vec3& normal, const Vec3& direction) {
+    Vec3 wi = frame.to_local(-direction);
+    const double cosine = -direction.dot(normal);
     const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
     const double across = std::sqrt(wi.x() * wi.x() + wi.y() * wi.y());
     const double stretch = across > 0.0 ? sine / across : 0.0;
@@ -69,7 +69,8 @@ ForwardMap::ForwardMap(const Stage& stage, const Radii& radii,
     for (const auto& list : photons) starts.push_back(starts.back() + list.size());
     const std::size_t count = starts.back();
     bucket_mask_ = std::bit_ceil(std::max<std::size_t>(2 * count, 16)) - 1;
-    photons_ = RawArray<Photon>(count);
+    fluxes_ = RawArray<Lanes>(count);
+    arrivals_ = RawArray<Arrival>(count);
     const std::size_t tasks = tasks_for(count);
     const auto emit = [&](std::size_t task, auto&& put) {
         const std::size_t end = (task + 1) * count / tasks;
@@ -85,53 +86,63 @@ ForwardMap::ForwardMap(const Stage& stage, const Radii& radii,
         }
     };
     const auto place = [&](std::size_t i, const Photon* photon) {
-        photons_.construct(i, *photon);
+        fluxes_.construct(i, photon->flux);
+        arrivals_.construct(
+            i, {photon->point, photon->direction, photon->light, photon->on_common_lane});
         return Candidate{photon->point.position.cast<float>(),
-                         photon->direction.dot(photon->point.normal) < 0.0, photon->on_common_lane};
+                         Candidate::key_of(kernel_patch(stage, photon->point),
+                                           photon->direction.dot(photon->point.normal) < 0.0)};
     };
     grid_.build<const Photon*>(bucket_mask_ + 1, tasks, threads, emit, place);
 }
 
-// Calls use(candidate, photon, its weight in the narrow kernel).
-template <typename Use>
-void ForwardMap::for_each_in_kernel(const Stage& stage, const GatherPoint& at, double cell_m,
-                                    double radius_m, bool flat_disc, const Use& use) const {
+// The buckets of all cells that the kernel meets.
+ForwardMap::Buckets ForwardMap::buckets_around(const Stage& stage, const GatherPoint& at,
+                                               double cell_m, double radius_m) const {
     const Vec3& centre = at.point.position;
     const std::uint32_t patch = kernel_patch(stage, at.point);
     const bool plane = at.point.object == no_object ||
                        is_plane(stage.parts().objects[at.point.object].shape, at.point.patch);
-    const bool straight = is_straight(stage, at.point);
-    const double inner_m = inner_radius_factor * radius_m;
-    const double square_m2 = square(radius_m), inner_square_m2 = square(inner_m);
-
     const Vec3 reach = Vec3::Constant(radius_m);
     const CellKey low = CellKey::at(patch, centre - reach, cell_m);
     const CellKey high = CellKey::at(patch, centre + reach, cell_m);
     // A plane meets the cells whose centres are no further from it than this.
     const Vec3& normal = at.point.normal;
     const double thickness_m = 0.5001 * cell_m * normal.lpNorm<1>() + stage.nudge_m();
-    std::array<std::size_t, 64> buckets;
-    std::size_t count = 0;
+    Buckets buckets;
     for (std::int32_t x = low.x; x <= high.x; ++x) {
         for (std::int32_t y = low.y; y <= high.y; ++y) {
             for (std::int32_t z = low.z; z <= high.z; ++z) {
                 const Vec3 middle = cell_m * Vec3(x + 0.5, y + 0.5, z + 0.5);
                 if (plane && std::abs(normal.dot(middle - centre)) > thickness_m) continue;
                 const std::size_t bucket = CellKey{patch, x, y, z}.hash() & bucket_mask_;
-                const auto end = buckets.begin() + static_cast<std::ptrdiff_t>(count);
-                if (std::find(buckets.begin(), end, bucket) == end) buckets[count++] = bucket;
+                const auto begin = buckets.numbers.begin();
+                const auto end = begin + static_cast<std::ptrdiff_t>(buckets.count);
+                if (std::find(begin, end, bucket) == end) buckets.numbers[buckets.count++] = bucket;
             }
         }
     }
+    return buckets;
+}
 
+// Calls use(candidate, number of the photon, its weight in the narrow kernel).
+template <typename Use>
+void ForwardMap::for_each_in_kernel(const Stage& stage, const GatherPoint& at, double cell_m,
+                                    double radius_m, bool flat_disc, const Use& use) const {
+    const Vec3& centre = at.point.position;
+    const std::uint32_t patch = kernel_patch(stage, at.point);
+    const bool straight = is_straight(stage, at.point);
+    const double inner_m = inner_radius_factor * radius_m;
+    const double square_m2 = square(radius_m), inner_square_m2 = square(inner_m);
     // The quick test is in single precision and a little wide.
     const Eigen::Vector3f quick_centre = centre.cast<float>();
     const auto quick_m2 =
         static_cast<float>(square(1.0001 * radius_m + 1e-6 * centre.cwiseAbs().maxCoeff()));
+    const Buckets buckets = buckets_around(stage, at, cell_m, radius_m);
     std::array<std::uint32_t, 64> near;
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::span<const Candidate> bucket = grid_.bucket(buckets[i]);
-        const std::size_t start = grid_.start(buckets[i]);
+    for (std::size_t i = 0; i < buckets.count; ++i) {
+        const std::span<const Candidate> bucket = grid_.bucket(buckets.numbers[i]);
+        const std::size_t start = grid_.start(buckets.numbers[i]);
         for (std::size_t first = 0; first < bucket.size(); first += near.size()) {
             // Without a branch for each: which ones are near cannot be foreseen.
             const std::size_t end = std::min(bucket.size(), first + near.size());
@@ -142,28 +153,71 @@ void ForwardMap::for_each_in_kernel(const Stage& stage, const GatherPoint& at, d
             }
             for (std::size_t k = 0; k < found; ++k) {
                 const Candidate& candidate = bucket[near[k]];
-                if (!(candidate.above ? at.from_above : at.from_below)) continue;
-                const Photon& photon = photons_[start + near[k]];
-                const double distance_m2 = (photon.point.position - centre).squaredNorm();
-                if (distance_m2 >= square_m2 || kernel_patch(stage, photon.point) != patch)
-                    continue;
-                if (!straight && !in_kernel(stage, at.point, photon.point, radius_m)) continue;
-                if (at.region && !at.region->holds(photon.point.position)) continue;
-                if (at.but_of && (*at.but_of)[photon.light]) continue;
+                if (!(candidate.above() ? at.from_above : at.from_below)) continue;
+                const std::size_t photon = start + near[k];
+                const Arrival& arrival = arrivals_[photon];
+                const double distance_m2 = (arrival.point.position - centre).squaredNorm();
+                if (distance_m2 >= square_m2 || candidate.patch() != patch) continue;
+                if (!straight && !in_kernel(stage, at.point, arrival.point, radius_m)) continue;
+                if (at.region && !at.region->holds(arrival.point.position)) continue;
+                if (at.but_of && (*at.but_of)[arrival.light]) continue;
                 if (flat_disc) {
                     use(candidate, photon, narrow_weight(distance_m2 / square_m2));
                     continue;
                 }
                 const bool inner = distance_m2 < inner_square_m2 &&
-                                   (straight || in_kernel(stage, at.point, photon.point, inner_m));
+                                   (straight || in_kernel(stage, at.point, arrival.point, inner_m));
                 use(candidate, photon, inner ? 1.0 : 0.0);
             }
         }
     }
 }
 
+// Adds the flux on one side of a whole flat disc, by places in single precision. Returns the number
+// of photons.
+std::uint32_t ForwardMap::add_flat_disc(const Buckets& buckets, std::uint32_t patch, bool above,
+                                        const Vec3& centre, double radius_m,
+                                        KernelSums& sums) const {
+    const Eigen::Vector3f middle = centre.cast<float>();
+    const auto per_square_radius = static_cast<float>(1.0 / square(radius_m));
+    const std::uint32_t key = Candidate::key_of(patch, above);
+    constexpr std::size_t most = 64;
+    std::array<float, most> place;  // square of the distance from the centre in radii
+    std::array<float, most> weight;
+    std::array<std::uint32_t, most> near;
+    std::uint32_t all = 0;
+    for (std::size_t i = 0; i < buckets.count; ++i) {
+        const std::span<const Candidate> bucket = grid_.bucket(buckets.numbers[i]);
+        const std::size_t start = grid_.start(buckets.numbers[i]);
+        for (std::size_t first = 0; first < bucket.size(); first += most) {
+            const std::size_t count = std::min(most, bucket.size() - first);
+            const Candidate* candidates = bucket.data() + first;
+            for (std::size_t k = 0; k < count; ++k) {
+                const Candidate& candidate = candidates[k];
+                const float s = per_square_radius * (candidate.position - middle).squaredNorm();
+                place[k] = candidate.key == key ? s : 1.0f;
+                weight[k] = narrow_weight(s);
+            }
+            // Without a branch for each: which ones are near cannot be foreseen.
+            std::size_t found = 0;
+            for (std::size_t k = 0; k < count; ++k) {
+                near[found] = static_cast<std::uint32_t>(k);
+                found += place[k] < 1.0f ? 1 : 0;
+            }
+            const Lanes* fluxes = fluxes_.data() + start + first;
+            for (std::size_t k = 0; k < found; ++k) {
+                const Lanes& flux = fluxes[near[k]];
+                sums.full += flux;
+                sums.narrow += weight[near[k]] * flux;
+            }
+            all += static_cast<std::uint32_t>(found);
+        }
+    }
+    return all;
+}
+
 Gathered ForwardMap::gather(const Phase& phase, const Radii& radii, const GatherPoint& at) const {
-    if (photons_.empty()) return {};
+    if (empty()) return {};
     const Stage& stage = phase.stage;
     const double cell_m = radii[kernel_patch(stage, at.point)];
     const double radius_m = std::min({cell_m, radii.of_point(at.sensor_point), at.most_radius_m});
@@ -183,15 +237,14 @@ Gathered ForwardMap::gather(const Phase& phase, const Radii& radii, const Gather
     Sums sum;
     std::uint32_t found = 0;
     const bool tells_steps = at.tells_steps && areas.flat_disc;
-    const auto add = [&](Sums& to, const Lanes& light, const Candidate& candidate,
-                         const Photon& photon, double weight) {
+    const auto add = [&](Sums& to, const Lanes& light, std::size_t photon, double weight) {
         ++found;
-        const bool halved = candidate.on_common_lane && at.optics.hero_only;
+        const bool halved = at.optics.hero_only && arrivals_[photon].on_common_lane;
         const Lanes part = halved ? Lanes(light * weight_of_common_heroes) : light;
         to.full += part;
         to.narrow += static_cast<float>(weight) * part;
         if (!tells_steps) return;
-        const Vec3 way = (photon.point.position - at.point.position) / radius_m;
+        const Vec3 way = (arrivals_[photon].point.position - at.point.position) / radius_m;
         const auto of_step = static_cast<float>(1.0 - 1.5 * way.squaredNorm());
         for (std::size_t i = 0; i < 3; ++i) {
             const Lanes moment = static_cast<float>(way[static_cast<Eigen::Index>(i)]) * part;
@@ -201,13 +254,27 @@ Gathered ForwardMap::gather(const Phase& phase, const Radii& radii, const Gather
     };
     if (std::holds_alternative<Diffuse>(at.bsdf)) {
         // All light from a side is scattered alike.
-        Sums above, below;
-        for_each_in_kernel(stage, at, cell_m, radius_m, areas.flat_disc,
-                           [&](const Candidate& candidate, const Photon& photon, double weight) {
-                               add(candidate.above ? above : below, photon.flux, candidate, photon,
-                                   weight);
-                           });
         const Lanes from_above = scattered(Vec3::UnitZ()), from_below = scattered(-Vec3::UnitZ());
+        Sums above, below;
+        // Single precision tells places to 6e-8 of the coordinates.
+        const bool quick = areas.flat_disc && !tells_steps && !at.region && !at.but_of &&
+                           !at.optics.hero_only &&
+                           radius_m > 1e-4 * at.point.position.cwiseAbs().maxCoeff();
+        if (quick) {
+            const std::uint32_t patch = kernel_patch(stage, at.point);
+            const Buckets buckets = buckets_around(stage, at, cell_m, radius_m);
+            const auto side = [&](bool is_above, KernelSums& to) {
+                return add_flat_disc(buckets, patch, is_above, at.point.position, radius_m, to);
+            };
+            if (at.from_above && (from_above != 0.0f).any()) found += side(true, above);
+            if (at.from_below && (from_below != 0.0f).any()) found += side(false, below);
+        } else {
+            for_each_in_kernel(stage, at, cell_m, radius_m, areas.flat_disc,
+                               [&](const Candidate& candidate, std::size_t photon, double weight) {
+                                   add(candidate.above() ? above : below, fluxes_[photon], photon,
+                                       weight);
+                               });
+        }
         sum.full = above.full * from_above + below.full * from_below;
         sum.narrow = above.narrow * from_above + below.narrow * from_below;
         for (std::size_t i = 0; i < 3; ++i) {
@@ -216,9 +283,11 @@ Gathered ForwardMap::gather(const Phase& phase, const Radii& radii, const Gather
         }
     } else {
         for_each_in_kernel(stage, at, cell_m, radius_m, areas.flat_disc,
-                           [&](const Candidate& candidate, const Photon& photon, double weight) {
-                               const Vec3 wi = kernel_direction(at.frame, photon);
-                               add(sum, photon.flux * scattered(wi), candidate, photon, weight);
+                           [&](const Candidate&, std::size_t photon, double weight) {
+                               const Arrival& arrival = arrivals_[photon];
+                               const Vec3 wi = kernel_direction(at.frame, arrival.point.normal,
+                                                                arrival.direction);
+                               add(sum, fluxes_[photon] * scattered(wi), photon, weight);
                            });
     }
     if (found == 0) return {};

@@ -31,7 +31,9 @@ KernelAreas kernel_areas(const Stage& stage, const SurfacePoint& p, double radiu
 
 /// Local direction toward where a photon came from, for the BSDF at the centre of the kernel. The
 /// cosine is that at the photon's own point, so that a curved surface loses no grazing light.
-Vec3 kernel_direction(const Frame& frame, const Photon& photon);
+/// @param normal     at the photon's point.
+/// @param direction  of its flight.
+Vec3 kernel_direction(const Frame& frame, const Vec3& normal, const Vec3& direction);
 
 /// Kernels are summed twice from the same photons: evenly, and as a narrower kernel. In a whole
 /// disc the bias is c r^2, so that bias(r) = 2 (L(r) - L(r / sqrt 2)) up to O(r^4)  (METHOD
@@ -44,8 +46,9 @@ inline constexpr double inner_radius_factor = 0.70710678118654752;
 /// up to O(r^4) (kernels of order 4: Gasser, Mueller and Mammitzsch, J. R. Stat. Soc. B 47 (1985),
 /// 238-252). What is left has 0.6 times the O(r^4) of two radii, and less noise: nothing jumps
 /// where a photon crosses a rim.
-constexpr double narrow_weight(double s) {
-    return 6.0 * (1.0 - 2.0 * s) * (1.0 - s);
+template <typename Real>
+constexpr Real narrow_weight(Real s) {
+    return Real{6} * (Real{1} - Real{2} * s) * (Real{1} - s);
 }
 
 /// Least variance of L(r) - L_narrow over that of L, of photons of equal flux: the mean of
@@ -122,9 +125,9 @@ public:
     /// Scattered radiance at a point from the photons around it.
     Gathered gather(const Phase& phase, const Radii& radii, const GatherPoint& at) const;
 
-    std::size_t size() const { return photons_.size(); }
-    bool empty() const { return photons_.empty(); }
-    std::size_t bytes() const { return photons_.size() * sizeof(Photon) + grid_.bytes(); }
+    std::size_t size() const { return fluxes_.size(); }
+    bool empty() const { return fluxes_.empty(); }
+    std::size_t bytes() const { return size() * (sizeof(Lanes) + sizeof(Arrival)) + grid_.bytes(); }
 
 private:
     // A photon as it stands in its bucket of the hashed grid: 16 bytes, for the cache, as most
@@ -132,16 +135,38 @@ private:
     // patch.
     struct Candidate {
         Eigen::Vector3f position;
-        bool above;           // it arrives on the side of the normal
-        bool on_common_lane;  // as Photon's
+        std::uint32_t key;
+
+        /// @param above  whether it arrives on the side of the normal.
+        static std::uint32_t key_of(std::uint32_t patch, bool above) {
+            return 2 * patch + (above ? 1 : 0);
+        }
+        std::uint32_t patch() const { return key / 2; }
+        bool above() const { return key % 2 == 1; }
     };
+    // What is looked at of a photon only where the surface is not plain or not diffuse.
+    struct Arrival {
+        SurfacePoint point;
+        Vec3 direction;
+        std::uint32_t light;
+        bool on_common_lane;
+    };
+    struct Buckets {
+        std::array<std::size_t, 64> numbers;
+        std::size_t count = 0;
+    };
+    Buckets buckets_around(const Stage& stage, const GatherPoint& at, double cell_m,
+                           double radius_m) const;
     template <typename Use>
     void for_each_in_kernel(const Stage& stage, const GatherPoint& at, double cell_m,
                             double radius_m, bool flat_disc, const Use& use) const;
+    std::uint32_t add_flat_disc(const Buckets& buckets, std::uint32_t patch, bool above,
+                                const Vec3& centre, double radius_m, KernelSums& sums) const;
 
     BucketTable<Candidate> grid_;  // cell size: the patch's radius
     std::size_t bucket_mask_ = 0;
-    RawArray<Photon> photons_;  // in the order of the grid
+    RawArray<Lanes> fluxes_;      // in the order of the grid
+    RawArray<Arrival> arrivals_;  // the same
     double rays_ = 1.0;
 };
 

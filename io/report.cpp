@@ -173,6 +173,10 @@ std::string report_json(const optics::Result& result, const ReportSource& source
                  {"wall_s", number(result.wall_s, "wall_s")},
                  {"stopped_by", result.stopped_by},
                  {"accuracy_reached", result.accuracy_reached}};
+    if (!result.accuracy_reached) {
+        json["furthest"] = {{"reading", result.furthest.reading},
+                            {"excess", number(result.furthest.excess, "furthest excess")}};
+    }
     json["uncertain_inputs"] = result.uncertain_inputs;
     // The image that decides when to stop is the worst of all cameras.
     const auto worst =

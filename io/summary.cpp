@@ -121,12 +121,22 @@ std::string flux_text(const optics::FluxBalance& flux) {
     return "\nFlux balance of the forward rays\n" + text_table(rows);
 }
 
+std::string missed_text(const optics::Result& result) {
+    if (result.accuracy_reached) return "";
+    const optics::Furthest& furthest = result.furthest;
+    std::string text = ", before the accuracy asked for was reached";
+    if (std::isfinite(furthest.excess) && furthest.excess > 1.0) {
+        text += fmt::format(": {} is {:.2g} times as much",
+                            furthest.reading.empty() ? "noise δ" : "U of " + furthest.reading,
+                            furthest.excess);
+    }
+    return text;
+}
+
 std::string work_text(const optics::Result& result) {
     const optics::RayCounts& rays = result.rays;
-    return fmt::format(
-               "\nPhases {} in {:.1f} s, stopped by: {}{}\n", result.phases, result.wall_s,
-               result.stopped_by,
-               result.accuracy_reached ? "" : ", before the accuracy asked for was reached") +
+    return fmt::format("\nPhases {} in {:.1f} s, stopped by: {}{}\n", result.phases, result.wall_s,
+                       result.stopped_by, missed_text(result)) +
            fmt::format("Paths from observers {}, from lights {} caustic and {} secondary\n",
                        rays.backward_rays, rays.caustic_rays, rays.secondary_rays) +
            fmt::format("Memory of a phase: forward map {}, backward map {}, images {}\n",

@@ -23,14 +23,18 @@ StopRule::StopRule(const SceneParts& parts, Settings limits, std::uint32_t phase
     while (next_look_ <= phases_done) next_look();
 }
 
-double StopRule::excess(const RunState& state) const {
-    double worst = 0.0;
-    if (image_accuracy_) worst = state.delta / *image_accuracy_;
+Furthest StopRule::furthest(const RunState& state) const {
+    Furthest furthest;
+    const auto consider = [&](Furthest other) {
+        if (std::isnan(other.excess)) other.excess = infinity;  // nothing is known yet
+        if (other.excess > furthest.excess) furthest = std::move(other);
+    };
+    if (image_accuracy_) consider({{}, state.delta / *image_accuracy_});
     if (sensors_asked_) {
-        worst = std::max({worst, state.readings.worst_sensor(parts_, limits_),
-                          state.worst_receiver(parts_, limits_)});
+        consider(state.readings.furthest_sensor(parts_, limits_));
+        consider(state.furthest_receiver(parts_, limits_));
     }
-    return worst;
+    return furthest;
 }
 
 std::string StopRule::check(const RunState& state) {
@@ -39,7 +43,7 @@ std::string StopRule::check(const RunState& state) {
     const bool last = last_phase || last_moment;
     if (asked() && (state.phases >= next_look_ || (last && state.phases >= 2))) {
         if (state.phases >= next_look_) next_look();
-        const bool reached = excess(state) <= 1.0;
+        const bool reached = furthest(state).excess <= 1.0;
         looks_reached_ = reached ? looks_reached_ + 1 : 0;
         // A limit that was set beforehand is no lucky moment.
         reached_ = looks_reached_ >= (last ? 1 : looks_in_a_row);
@@ -50,10 +54,10 @@ std::string StopRule::check(const RunState& state) {
     return {};
 }
 
-std::optional<double> StopRule::left_s(const RunState& state) const {
+std::optional<double> StopRule::left_s(const RunState& state, const Furthest& furthest) const {
     std::optional<double> left;
     if (asked()) {
-        const double ratio = excess(state);
+        const double ratio = furthest.excess;
         if (std::isfinite(ratio)) left = state.wall_s * std::max(0.0, ratio * ratio - 1.0);
     }
     if (limits_.time_limit_s) {

@@ -19,16 +19,16 @@ public:
     std::string check(const RunState& state);
 
     bool accuracy_reached() const { return reached_ || !asked(); }
-    /// Wall time until the accuracy is reached if errors fall with the square root of time.
-    std::optional<double> left_s(const RunState& state) const;
+    /// Of all that is asked for.
+    Furthest furthest(const RunState& state) const;
+    /// Wall time until that one is reached if errors fall with the square root of time.
+    std::optional<double> left_s(const RunState& state, const Furthest& furthest) const;
     /// Noise of images to stop at, if there are any and it is asked for.
     std::optional<double> image_accuracy() const { return image_accuracy_; }
 
 private:
     bool asked() const { return image_accuracy_ || sensors_asked_; }
     void next_look() { next_look_ = std::max(next_look_ + 1, next_look_ * 6 / 5); }
-    // Errors over what is asked for.
-    double excess(const RunState& state) const;
 
     const SceneParts& parts_;
     Settings limits_;

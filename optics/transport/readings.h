@@ -99,9 +99,7 @@ public:
     double image_variance() const;
     /// delta of METHOD eq. (6) over the pixels of all cameras; 0 without a camera.
     double delta(int threads) const;
-    /// Largest ratio of the expanded uncertainty of a sensor to what is asked for; 0 without
-    /// sensors of which anything is asked.
-    double worst_sensor(const SceneParts& parts, const Settings& targets) const;
+    Furthest furthest_sensor(const SceneParts& parts, const Settings& targets) const;
     std::size_t bytes() const;
 
 private:

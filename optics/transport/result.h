@@ -133,6 +133,7 @@ struct Result {
     double wall_s = 0.0;
     std::string stopped_by;  ///< "accuracy", "time limit", "phases", "interruption", "merge"
     bool accuracy_reached = true;
+    Furthest furthest{};  ///< where the accuracy was not reached
     std::vector<std::string> warnings;
 };
 

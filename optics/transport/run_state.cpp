@@ -39,6 +39,11 @@ void warn_of_losses(Result& result) {
     if (flux.numerical > 0.0) result.warnings.emplace_back("light was lost to undefined numbers");
 }
 
+// Both sides of each receiver, one after the other.
+std::string side_name(const FluxReceiver& receiver, std::size_t side) {
+    return receiver.name + (side % 2 == 0 ? " (front)" : " (back)");
+}
+
 }  // namespace
 
 RunState::RunState(const SceneParts& parts, const Settings& of_run)
@@ -88,18 +93,19 @@ void RunState::merge(const RunState& other) {
     backward_map_bytes = std::max(backward_map_bytes, other.backward_map_bytes);
 }
 
-double RunState::worst_receiver(const SceneParts& parts, const Settings& targets) const {
-    double worst = 0.0;
+Furthest RunState::furthest_receiver(const SceneParts& parts, const Settings& targets) const {
+    Furthest furthest;
     for (std::size_t i = 0; i < parts.receivers.size(); ++i) {
         const SensorTarget target = targets.target_of(parts.receivers[i].name);
         // Relative to both sides together: hardly any light on one is no reason to go on.
         const double value = received[2 * i].value() + received[2 * i + 1].value();
         for (std::size_t side = 2 * i; side < 2 * i + 2; ++side) {
-            worst = std::max(
-                worst, target.excess(value, received[side].expanded_uncertainty(target_coverage)));
+            const double excess =
+                target.excess(value, received[side].expanded_uncertainty(target_coverage));
+            if (excess > furthest.excess) furthest = {side_name(parts.receivers[i], side), excess};
         }
     }
-    return worst;
+    return furthest;
 }
 
 Result RunState::result(const SceneParts& parts) const {
@@ -107,9 +113,10 @@ Result RunState::result(const SceneParts& parts) const {
     result.images = readings.images(parts, settings.threads);
     result.quantities = readings.quantities(parts);
     for (std::size_t i = 0; i < parts.receivers.size(); ++i) {
-        const std::string& name = parts.receivers[i].name;
-        result.quantities.push_back({name + " (front)", "luminous flux", "lm", received[2 * i]});
-        result.quantities.push_back({name + " (back)", "luminous flux", "lm", received[2 * i + 1]});
+        for (std::size_t side = 2 * i; side < 2 * i + 2; ++side) {
+            result.quantities.push_back(
+                {side_name(parts.receivers[i], side), "luminous flux", "lm", received[side]});
+        }
     }
     result.derived = readings.derived(parts);
     result.flux_balance_lm = balance(parts, tally, tally_rays);
@@ -123,6 +130,7 @@ Result RunState::result(const SceneParts& parts) const {
     result.wall_s = wall_s;
     result.stopped_by = stopped_by;
     result.accuracy_reached = accuracy_reached;
+    result.furthest = furthest;
     warn_of_losses(result);
     result.warnings.insert(result.warnings.end(), warnings.begin(), warnings.end());
     return result;

@@ -19,8 +19,7 @@ struct RunState {
     /// matters for the last bits of the sums.
     void merge(const RunState& other);
 
-    /// Largest ratio of the expanded uncertainty of a receiver to what is asked for.
-    double worst_receiver(const SceneParts& parts, const Settings& targets) const;
+    Furthest furthest_receiver(const SceneParts& parts, const Settings& targets) const;
     Result result(const SceneParts& parts) const;
 
     Settings settings;                 ///< of the run; all of its phases rest on them
@@ -29,6 +28,7 @@ struct RunState {
     double wall_s = 0.0;
     std::string stopped_by;
     bool accuracy_reached = true;
+    Furthest furthest{};  ///< where the accuracy was not reached; not saved
     std::vector<std::string> warnings;
 
     Readings readings;

@@ -28,6 +28,11 @@ std::string point_name(const IlluminancePoints& points, std::size_t k) {
     return points.positions.size() > 1 ? fmt::format("{}[{}]", points.name, k) : points.name;
 }
 
+std::string bin_name(const Observer& observer, std::size_t bin) {
+    const auto* points = std::get_if<IlluminancePoints>(&observer);
+    return points != nullptr ? point_name(*points, bin) : name_of(observer);
+}
+
 }  // namespace
 
 Uncertain Readings::result_of_sensor(const Calibration& calibration, std::size_t bin) const {
@@ -38,24 +43,25 @@ Uncertain Readings::result_of_sensor(const Calibration& calibration, std::size_t
     return result;
 }
 
-double Readings::worst_sensor(const SceneParts& parts, const Settings& targets) const {
+Furthest Readings::furthest_sensor(const SceneParts& parts, const Settings& targets) const {
     const Calibration calibration(sensors_, emission_);
-    double worst = 0.0;
+    Furthest furthest;
     for (std::size_t i = 0; i < observers_.size(); ++i) {
         if (is_camera_[i]) continue;
-        const SensorTarget target =
-            targets.target_of(name_of(parts.observers[observers_[i].observer]));
+        const Observer& observer = parts.observers[observers_[i].observer];
+        const SensorTarget target = targets.target_of(name_of(observer));
         double t = 0.0;  // the same for all bins
         for (std::size_t bin = 0; bin < observers_[i].count; ++bin) {
             const Uncertain result = result_of_sensor(calibration, observers_[i].first_bin + bin);
-            if (result.degrees_of_freedom < 1.0) return infinity;
+            if (result.degrees_of_freedom < 1.0) return {bin_name(observer, bin), infinity};
             if (bin == 0) t = student_t(target_coverage, result.degrees_of_freedom);
             const double expanded =
                 std::hypot(t * result.standard_error, target_coverage * result.bias_left);
-            worst = std::max(worst, target.excess(result.value, expanded));
+            const double excess = target.excess(result.value, expanded);
+            if (excess > furthest.excess) furthest = {bin_name(observer, bin), excess};
         }
     }
-    return worst;
+    return furthest;
 }
 
 std::optional<Colour> Readings::colour(const Calibration& calibration,
@@ -127,7 +133,7 @@ std::vector<Quantity> Readings::quantities(const SceneParts& parts) const {
         };
         if (const auto* points = std::get_if<IlluminancePoints>(&observer)) {
             for (std::size_t k = 0; k < bins.count; ++k) {
-                report(point_name(*points, k), "illuminance", "lx", k);
+                report(bin_name(observer, k), "illuminance", "lx", k);
             }
         } else if (const auto* meter = std::get_if<LuminanceMeter>(&observer)) {
             report(meter->name, "luminance", "cd/m2", 0);

@@ -66,12 +66,14 @@ Progress progress_of(const RunState& state, const StopRule& rule) {
     const RayCounts& counts = state.counts;
     const double rays = static_cast<double>(counts.backward_segments + counts.forward_segments +
                                             counts.shadow_segments);
+    Furthest furthest = rule.furthest(state);
     return {.phase = state.phases,
             .delta = state.delta,
             .delta_wanted = rule.image_accuracy(),
             .rays_per_s = rays / state.wall_s,
             .elapsed_s = state.wall_s,
-            .left_s = rule.left_s(state)};
+            .left_s = rule.left_s(state, furthest),
+            .furthest = std::move(furthest)};
 }
 
 }  // namespace
@@ -119,11 +121,15 @@ void go_on(const SceneParts& parts, const Settings& asked, RunState& state, cons
     if (limits.time_limit_s) *limits.time_limit_s += before_s;
     StopRule rule(parts, limits, state.phases);
     state.stopped_by.clear();
+    const auto note_accuracy = [&] {
+        state.accuracy_reached = rule.accuracy_reached();
+        state.furthest = state.accuracy_reached ? Furthest{} : rule.furthest(state);
+    };
     const int threads = limits.threads > 0 ? limits.threads : hardware_threads();
     if (state.phases > 1) state.delta = state.readings.delta(threads);  // it may have been loaded
     if (limits.max_phases && state.phases >= *limits.max_phases) {
         state.stopped_by = rule.check(state);
-        state.accuracy_reached = rule.accuracy_reached();
+        note_accuracy();
         return;
     }
     Simulation simulation(parts, state, threads);
@@ -173,7 +179,7 @@ void go_on(const SceneParts& parts, const Settings& asked, RunState& state, cons
         for (int i = 1; i < simulation.lanes(); ++i) lanes.emplace_back(trace_phases);
         trace_phases();
     }
-    state.accuracy_reached = rule.accuracy_reached();
+    note_accuracy();
     state.wall_s = before_s + stopwatch.seconds();
 }
 

@@ -17,6 +17,7 @@ struct Progress {
     double rays_per_s = 0.0;
     double elapsed_s = 0.0;
     std::optional<double> left_s;
+    Furthest furthest{};  ///< of all that is asked for
 };
 
 /// What may watch over a simulation; all of it is called and looked at after each phase.

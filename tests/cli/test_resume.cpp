@@ -54,11 +54,12 @@ struct Runs {
     json report(const std::string& results) const {
         return json::parse(read_text(path(results) + "/report.json"));
     }
-    /// All numbers of a run that do not tell of time: images and report, as text.
+    /// All numbers of a run that do not tell of time or of why it ended: images and report, as
+    /// text.
     std::string bits(const std::string& results) const {
         json numbers = report(results);
-        for (const char* key :
-             {"wall_s", "rays", "memory", "threads", "stopped_by", "accuracy_reached"}) {
+        for (const char* key : {"wall_s", "rays", "memory", "threads", "stopped_by",
+                                "accuracy_reached", "furthest"}) {
             numbers.erase(key);
         }
         return read_text(path(results) + "/view.exr") +

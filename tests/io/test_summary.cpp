@@ -68,7 +68,11 @@ TEST_CASE("The summary says that the accuracy was not reached", "[unit][summary]
     optics::Result result = example_result();
     result.accuracy_reached = false;
     CHECK_THAT(summary(result, {}),
-               Contains("stopped by: phases, before the accuracy asked for was reached"));
+               Contains("stopped by: phases, before the accuracy asked for was reached\n"));
+    result.furthest = {"desk[3,1]", 2.44};
+    CHECK_THAT(summary(result, {}), Contains("reached: U of desk[3,1] is 2.4 times as much\n"));
+    result.furthest = {{}, 1.5};
+    CHECK_THAT(summary(result, {}), Contains("reached: noise δ is 1.5 times as much\n"));
 }
 
 TEST_CASE("A long list of quantities is cut off with its count", "[unit][summary]") {

@@ -72,6 +72,14 @@ TEST_CASE("A run stops when each sensor has the uncertainty that was asked for",
     const Result short_run = simulate(luminaire_over_row().parts, settings);
     CHECK_FALSE(short_run.accuracy_reached);
     CHECK(short_run.stopped_by == "phases");
+    // It names the reading that lacks most.
+    const auto relative = [](const Quantity& quantity) {
+        return quantity.result().expanded_uncertainty() / quantity.result().value;
+    };
+    const Quantity& furthest = *std::ranges::max_element(short_run.quantities, {}, relative);
+    CHECK(short_run.furthest.reading == furthest.name);
+    CHECK_THAT(short_run.furthest.excess, WithinRel(relative(furthest) / 1e-6, 1e-9));
+    CHECK(result.furthest.reading.empty());
 }
 
 TEST_CASE("Uniformity and mean follow from all points together", "[analytic]") {

@@ -123,22 +123,27 @@ double Estimate::standard_error(double correction) const {
 }
 
 double Estimate::bias_square() const {
-    return std::pow(bias(), 2) - std::pow(bias_standard_error(), 2);
+    return bias() * bias() - variance_of_mean(bias_sum_, bias_sum_of_squares_, count_);
 }
 
 double Estimate::correction(double expected_bias) const {
     if (count_ < 2) return 1.0;
-    const double noise = std::pow(bias_standard_error(), 2);
+    const double measured = bias() * bias();
+    const double noise = variance_of_mean(bias_sum_, bias_sum_of_squares_, count_);
     // As far from 0 as 4 standard deviations of a normal distribution (Wallace, Annals of
-    // Mathematical Statistics 30 (1959), 1121: t^2 = v (exp(u^2 / v) - 1)).
+    // Mathematical Statistics 30 (1959), 1121: t^2 = v (exp(u^2 / v) - 1), which is above u^2).
     const double degrees = degrees_of_freedom();
-    const bool is_clear = std::pow(bias(), 2) > degrees * std::expm1(16.0 / degrees) * noise;
-    const double square = is_clear ? bias_square() : expected_bias * expected_bias;
+    const bool is_clear =
+        measured > 16.0 * noise && measured > degrees * std::expm1(16.0 / degrees) * noise;
+    const double square = is_clear ? measured - noise : expected_bias * expected_bias;
     if (!(square + noise > 0.0)) return 1.0;
     // Var(v - b) = Var v - 2 Cov(v, b) + Var b. The error of v - c b is
     // Var v - 2 c Cov(v, b) + c^2 Var b + (1 - c)^2 square.
     const double covariance =
-        0.5 * (std::pow(mean_standard_error(), 2) + noise - std::pow(standard_error(), 2));
+        0.5 *
+        (variance_of_mean(sum_, sum_of_squares_, count_) + noise -
+         variance_of_mean(sum_ - bias_sum_,
+                          sum_of_squares_ - 2.0 * product_sum_ + bias_sum_of_squares_, count_));
     return std::clamp((square + covariance) / (square + noise), 0.0, 1.0);
 }
 

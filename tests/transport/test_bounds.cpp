@@ -2,12 +2,14 @@
 // together, and the colour of a reading.
 #include "spectral/colorimetry.h"
 #include "spectral/illuminants.h"
+#include "tests/support/cornell_scenes.h"
 #include "tests/support/truth_checks.h"
 #include "validation/cases/pane_shadow.h"
 #include "validation/truth/polygon_light.h"
 
 using namespace lucerna;
 using namespace lucerna::optics;
+using Catch::Matchers::WithinAbs;
 using Catch::Matchers::WithinRel;
 using validation::SceneBuilder;
 
@@ -80,6 +82,40 @@ TEST_CASE("A run stops when each sensor has the uncertainty that was asked for",
     CHECK(short_run.furthest.reading == furthest.name);
     CHECK_THAT(short_run.furthest.excess, WithinRel(relative(furthest) / 1e-6, 1e-9));
     CHECK(result.furthest.reading.empty());
+}
+
+TEST_CASE("The errors of an image are those of its pixels", "[unit]") {
+    const Result result = test::run(test::cornell_diffuse(24), Method::automatic, {12, 20000, 4});
+    const Image& image = result.images.at(0);
+    double luminances = 0.0, biases = 0.0;
+    for (const Estimate& pixel : image.luminance) {
+        luminances += square(pixel.mean());
+        biases += square(pixel.bias()) - square(pixel.bias_standard_error());
+    }
+    REQUIRE(biases > 0.0);
+    CHECK_THAT(image.relative_bias, WithinRel(std::sqrt(biases / luminances), 1e-9));
+    double values = 0.0, noise = 0.0, left = 0.0, whole_noise = 0.0, least = 1.0, most = 0.0;
+    for (std::size_t i = 0; i < image.luminance.size(); ++i) {
+        const Estimate& pixel = image.luminance[i];
+        const double share = image.correction(i);
+        const double of_bias = square(pixel.bias()) - square(pixel.bias_standard_error());
+        values += square(pixel.mean() - share * pixel.bias());
+        noise += square(pixel.standard_error(share));
+        left += square(1.0 - share) * of_bias;
+        whole_noise += square(pixel.standard_error(1.0));
+        least = std::min(least, share);
+        most = std::max(most, share);
+        CHECK_THAT(image.pixel(i).value, WithinRel(pixel.mean() - share * pixel.bias(), 1e-12));
+        // The bias that is left, and half of what is taken off.
+        const double unknown = std::max(1.0 - share, 0.5) * std::sqrt(std::max(0.0, of_bias));
+        CHECK_THAT(image.pixel(i).standard_error,
+                   WithinRel(std::hypot(pixel.standard_error(share), unknown), 1e-9));
+    }
+    CHECK_THAT(image.delta, WithinRel(std::sqrt(noise / values), 1e-9));
+    CHECK_THAT(image.delta_bias, WithinAbs(std::sqrt(std::max(0.0, left) / values), 1e-9));
+    // Pixels differ in how much is taken off, and all of it everywhere would be noisier.
+    CHECK(most - least > 0.2);
+    CHECK(whole_noise > noise);
 }
 
 TEST_CASE("Uniformity and mean follow from all points together", "[analytic]") {

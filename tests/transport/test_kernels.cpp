@@ -123,7 +123,7 @@ TEST_CASE("Whole discs gather alike where places are told in single precision", 
     const Gathered through = gathered_of(field, false, 0.25);
     CHECK_THAT(of_white(through.radiance),
                WithinRel(0.75 * of_white(quick.radiance) + 0.25 * 10.0, 1e-3));
-    // The cells on the rim are 2e-4 of the sums, 12 together.
+    // The cells on the rim are some 2e-4 of a sum of 5; a bias is the difference of two.
     CHECK_THAT(of_white(through.bias), WithinAbs(0.75 * of_white(quick.bias), 2.4e-3));
 }
 

@@ -115,18 +115,18 @@ double Estimate::bias_left() const {
     return 0.5 * std::sqrt(std::max(0.0, bias_square()));
 }
 
-double Estimate::standard_error(double correction) const {
+double Estimate::standard_error(double share) const {
     // Of v - c b: the sum of its squares follows from those of v and b and of their product.
-    const double squares = sum_of_squares_ - 2.0 * correction * product_sum_ +
-                           correction * correction * bias_sum_of_squares_;
-    return std::sqrt(variance_of_mean(sum_ - correction * bias_sum_, squares, count_));
+    const double squares =
+        sum_of_squares_ - 2.0 * share * product_sum_ + share * share * bias_sum_of_squares_;
+    return std::sqrt(variance_of_mean(sum_ - share * bias_sum_, squares, count_));
 }
 
 double Estimate::bias_square() const {
     return bias() * bias() - variance_of_mean(bias_sum_, bias_sum_of_squares_, count_);
 }
 
-double Estimate::correction(double expected_bias) const {
+double Estimate::corrected_share(double expected_bias) const {
     if (count_ < 2) return 1.0;
     const double measured = bias() * bias();
     const double noise = variance_of_mean(bias_sum_, bias_sum_of_squares_, count_);

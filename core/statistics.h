@@ -47,15 +47,15 @@ public:
     std::uint64_t count() const { return count_; }
     double degrees_of_freedom() const;
 
-    /// Mean with `correction` times the bias taken off, 0 to 1, and the standard deviation of that
+    /// Mean with this share of the bias taken off, 0 to 1, and the standard deviation of that
     /// over phases; infinite for fewer than two phases.
-    double value(double correction = 1.0) const { return mean() - correction * bias(); }
-    double standard_error(double correction = 1.0) const;
+    double value(double share = 1.0) const { return mean() - share * bias(); }
+    double standard_error(double share = 1.0) const;
     /// The share of the bias to take off for the least mean square error of value(), since the
     /// correction has noise of its own: by the measured bias where that is clear of its noise, else
     /// by `expected_bias`, the root mean square of biases such as this one. 1 for fewer than two
     /// phases.
-    double correction(double expected_bias) const;
+    double corrected_share(double expected_bias) const;
     Uncertain corrected() const {
         return {value(), standard_error(), degrees_of_freedom(), 1.0, bias_left()};
     }

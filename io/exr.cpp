@@ -197,12 +197,12 @@ void write_exr(const std::filesystem::path& path, const optics::Image& image,
     Planes planes(image, provenance);
     const auto estimate = [&](std::size_t i) -> const Estimate& { return image.luminance[i]; };
     planes.add("luminance.Y",
-               [&](std::size_t i) { return estimate(i).value(image.correction(i)); });
+               [&](std::size_t i) { return estimate(i).value(image.corrected_share(i)); });
     planes.add("luminance.standard_error",
-               [&](std::size_t i) { return estimate(i).standard_error(image.correction(i)); });
+               [&](std::size_t i) { return estimate(i).standard_error(image.corrected_share(i)); });
     planes.add("luminance.bias", [&](std::size_t i) { return estimate(i).bias(); });
     planes.add("luminance.correction",
-               [&](std::size_t i) { return -image.correction(i) * estimate(i).bias(); });
+               [&](std::size_t i) { return -image.corrected_share(i) * estimate(i).bias(); });
     const double degrees = image.mean.degrees_of_freedom();
     const double t = degrees >= 1.0 ? student_t(report_coverage, degrees) : infinity;
     planes.add("luminance.expanded_uncertainty", [&](std::size_t i) {

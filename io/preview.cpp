@@ -14,7 +14,7 @@ namespace {
 std::vector<double> sorted_luminances(const optics::Image& image) {
     std::vector<double> luminances;
     for (std::size_t i = 0; i < image.luminance.size(); ++i) {
-        const double luminance = image.luminance[i].value(image.correction(i));
+        const double luminance = image.luminance[i].value(image.corrected_share(i));
         if (luminance > 0.0 && std::isfinite(luminance)) luminances.push_back(luminance);
     }
     if (luminances.empty()) return {1.0};
@@ -44,7 +44,7 @@ NaturalPreview natural_preview(const optics::Image& image) {
     const double white = percentile(sorted_luminances(image), exposure_percentile) / exposure_level;
     std::vector<std::array<float, 3>> xyz(image.luminance.size());
     for (std::size_t i = 0; i < xyz.size(); ++i) {
-        xyz[i] = to_float(Vec3(double{image.x[i]}, image.luminance[i].value(image.correction(i)),
+        xyz[i] = to_float(Vec3(double{image.x[i]}, image.luminance[i].value(image.corrected_share(i)),
                                double{image.z[i]}) /
                           white);
     }
@@ -78,7 +78,7 @@ FalseColourPreview false_colour_preview(const optics::Image& image) {
         for (int x = 0; x < image.width; ++x) {
             const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
                            static_cast<std::size_t>(x);
-            const double luminance = image.luminance[i].value(image.correction(i));
+            const double luminance = image.luminance[i].value(image.corrected_share(i));
             const double position =
                 luminance > 0.0 ? std::log(luminance / min) / std::log(max / min) : 0.0;
             preview.raster.at(x, y) = colour_of(position);

@@ -15,6 +15,44 @@ bool is_straight(const Stage& stage, const SurfacePoint& p) {
     return p.object == no_object || !unrolls(stage.parts().objects[p.object].shape, p.patch);
 }
 
+// Areas of a kernel, or of what barriers leave of it.
+KernelAreas areas_left(const Stage& stage, const GatherPoint& at, double radius_m) {
+    KernelAreas areas = at.region ? KernelAreas{at.region->area_m2(radius_m),
+                                                at.region->area_m2(inner_radius_factor * radius_m)}
+                                  : kernel_areas(stage, at.point, radius_m);
+    if (areas.full == pi * radius_m * radius_m && is_straight(stage, at.point)) {
+        areas = {areas.full, areas.full, true};
+    }
+    return areas;
+}
+
+// Light that arrives in a kernel, before or after the surface scatters it.
+struct KernelLight : KernelSums {
+    PerAxis slope = zero_per_axis, step = zero_per_axis;
+    std::uint32_t photons = 0;
+
+    // @param way  from the centre of the kernel, in radii.
+    void add_moments(const Lanes& flux, const Vec3& way) {
+        const auto of_step = static_cast<float>(1.0 - 1.5 * way.squaredNorm());
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Lanes moment = static_cast<float>(way[static_cast<Eigen::Index>(i)]) * flux;
+            slope[i] += moment;
+            step[i] += of_step * moment;
+        }
+    }
+
+    // Adds what a surface makes of light that it scatters by the same factor.
+    void add_scattered(const KernelLight& light, const Lanes& factor) {
+        full += light.full * factor;
+        narrow += light.narrow * factor;
+        photons += light.photons;
+        for (std::size_t i = 0; i < 3; ++i) {
+            slope[i] += light.slope[i] * factor;
+            step[i] += light.step[i] * factor;
+        }
+    }
+};
+
 }  // namespace
 
 bool in_kernel(const Stage& stage, const SurfacePoint& p, const SurfacePoint& q, double radius_m) {
@@ -221,41 +259,25 @@ Gathered ForwardMap::gather(const Phase& phase, const Radii& radii, const Gather
     const Stage& stage = phase.stage;
     const double cell_m = radii[kernel_patch(stage, at.point)];
     const double radius_m = std::min({cell_m, radii.of_point(at.sensor_point), at.most_radius_m});
+    const KernelAreas areas = areas_left(stage, at, radius_m);
+    const bool tells_steps = at.tells_steps && areas.flat_disc;
     const auto scattered = [&](const Vec3& wi) {
         return evaluate(at.bsdf, at.optics, at.wo, wi, Transport::radiance);
     };
-    KernelAreas areas = at.region ? KernelAreas{at.region->area_m2(radius_m),
-                                                at.region->area_m2(inner_radius_factor * radius_m)}
-                                  : kernel_areas(stage, at.point, radius_m);
-    if (areas.full == pi * radius_m * radius_m && is_straight(stage, at.point)) {
-        areas = {areas.full, areas.full, true};
-    }
-    // Of the light that arrives on one side.
-    struct Sums : KernelSums {
-        PerAxis slope = zero_per_axis, step = zero_per_axis;
-    };
-    Sums sum;
-    std::uint32_t found = 0;
-    const bool tells_steps = at.tells_steps && areas.flat_disc;
-    const auto add = [&](Sums& to, const Lanes& light, std::size_t photon, double weight) {
-        ++found;
+    const auto add = [&](KernelLight& to, const Lanes& flux, std::size_t photon, double weight) {
+        ++to.photons;
         const bool halved = at.optics.hero_only && arrivals_[photon].on_common_lane;
-        const Lanes part = halved ? Lanes(light * weight_of_common_heroes) : light;
+        const Lanes part = halved ? Lanes(flux * weight_of_common_heroes) : flux;
         to.full += part;
         to.narrow += static_cast<float>(weight) * part;
         if (!tells_steps) return;
-        const Vec3 way = (arrivals_[photon].point.position - at.point.position) / radius_m;
-        const auto of_step = static_cast<float>(1.0 - 1.5 * way.squaredNorm());
-        for (std::size_t i = 0; i < 3; ++i) {
-            const Lanes moment = static_cast<float>(way[static_cast<Eigen::Index>(i)]) * part;
-            to.slope[i] += moment;
-            to.step[i] += of_step * moment;
-        }
+        to.add_moments(part, (arrivals_[photon].point.position - at.point.position) / radius_m);
     };
+    KernelLight sum;
     if (std::holds_alternative<Diffuse>(at.bsdf)) {
         // All light from a side is scattered alike.
         const Lanes from_above = scattered(Vec3::UnitZ()), from_below = scattered(-Vec3::UnitZ());
-        Sums above, below;
+        KernelLight above, below;
         // Single precision tells places to 6e-8 of the coordinates.
         const bool quick = areas.flat_disc && !tells_steps && !at.region && !at.but_of &&
                            !at.optics.hero_only &&
@@ -263,11 +285,12 @@ Gathered ForwardMap::gather(const Phase& phase, const Radii& radii, const Gather
         if (quick) {
             const std::uint32_t patch = kernel_patch(stage, at.point);
             const Buckets buckets = buckets_around(stage, at, cell_m, radius_m);
-            const auto side = [&](bool is_above, KernelSums& to) {
-                return add_flat_disc(buckets, patch, is_above, at.point.position, radius_m, to);
+            const auto side = [&](bool is_above, KernelLight& to) {
+                to.photons =
+                    add_flat_disc(buckets, patch, is_above, at.point.position, radius_m, to);
             };
-            if (at.from_above && (from_above != 0.0f).any()) found += side(true, above);
-            if (at.from_below && (from_below != 0.0f).any()) found += side(false, below);
+            if (at.from_above && (from_above != 0.0f).any()) side(true, above);
+            if (at.from_below && (from_below != 0.0f).any()) side(false, below);
         } else {
             for_each_in_kernel(stage, at, cell_m, radius_m, areas.flat_disc,
                                [&](const Candidate& candidate, std::size_t photon, double weight) {
@@ -275,12 +298,8 @@ Gathered ForwardMap::gather(const Phase& phase, const Radii& radii, const Gather
                                        weight);
                                });
         }
-        sum.full = above.full * from_above + below.full * from_below;
-        sum.narrow = above.narrow * from_above + below.narrow * from_below;
-        for (std::size_t i = 0; i < 3; ++i) {
-            sum.slope[i] = above.slope[i] * from_above + below.slope[i] * from_below;
-            sum.step[i] = above.step[i] * from_above + below.step[i] * from_below;
-        }
+        sum.add_scattered(above, from_above);
+        sum.add_scattered(below, from_below);
     } else {
         for_each_in_kernel(stage, at, cell_m, radius_m, areas.flat_disc,
                            [&](const Candidate&, std::size_t photon, double weight) {
@@ -290,9 +309,9 @@ Gathered ForwardMap::gather(const Phase& phase, const Radii& radii, const Gather
                                add(sum, fluxes_[photon] * scattered(wi), photon, weight);
                            });
     }
-    if (found == 0) return {};
+    if (sum.photons == 0) return {};
     Gathered gathered = sum.over(areas, radius_m, rays_);
-    gathered.photons = found;
+    gathered.photons = sum.photons;
     if (!tells_steps) return gathered;
     const double per_sum = 1.0 / (rays_ * areas.full);
     for (std::size_t i = 0; i < 3; ++i) {

@@ -8,13 +8,13 @@
 
 namespace lucerna::optics {
 
-double Image::correction(std::size_t i) const {
-    return luminance[i].correction(relative_bias * luminance[i].mean());
+double Image::corrected_share(std::size_t i) const {
+    return luminance[i].corrected_share(relative_bias * luminance[i].mean());
 }
 
 Uncertain Image::pixel(std::size_t i) const {
     const Estimate& estimate = luminance[i];
-    const double share = correction(i);
+    const double share = corrected_share(i);
     // A bias that is taken off leaves half of it at most: see Estimate::bias_left.
     const double left =
         std::max(1.0 - share, 0.5) * std::sqrt(std::max(0.0, estimate.bias_square()));
@@ -256,7 +256,7 @@ double Readings::relative_bias(const ObserverBins& bins, int threads) const {
 Readings::Squares Readings::of_corrected(const ObserverBins& bins, double relative_bias,
                                          int threads) const {
     return sum_over_pixels(bins, threads, [&](const Estimate& pixel) {
-        const double share = pixel.correction(relative_bias * pixel.mean());
+        const double share = pixel.corrected_share(relative_bias * pixel.mean());
         return Squares{square(pixel.value(share)), square(pixel.standard_error(share)),
                        square(1.0 - share) * pixel.bias_square()};
     });
@@ -308,7 +308,7 @@ std::vector<Image> Readings::images(const SceneParts& parts, int threads) const 
             const Estimate& estimate = image.luminance[bin];
             // The correction keeps the pixel's colour.
             const double scale = estimate.mean() != 0.0
-                                     ? estimate.value(image.correction(bin)) / estimate.mean()
+                                     ? estimate.value(image.corrected_share(bin)) / estimate.mean()
                                      : 1.0;
             const double factor = scale / static_cast<double>(estimate.count());
             image.x.push_back(static_cast<float>(x_sum_[bins.first_bin + bin] * factor));

@@ -32,8 +32,9 @@ struct Image {
     double delta = 0.0;       ///< METHOD eq. 6, of the corrected pixels
     double delta_bias = 0.0;  ///< the same norm of the measured kernel bias that is left in them
 
-    /// Share of its measured kernel bias that is taken off a pixel: see Estimate::correction.
-    double correction(std::size_t i) const;
+    /// Share of its measured kernel bias that is taken off a pixel: see
+    /// Estimate::corrected_share().
+    double corrected_share(std::size_t i) const;
     /// Luminance of a pixel with its uncertainty: noise over phases, and what the correction leaves
     /// of the measured bias.
     Uncertain pixel(std::size_t i) const;
@@ -117,6 +118,12 @@ struct RayCounts {
                 shadow_segments, forward_photons, backward_photons, scattering_hits, deposits,
                 setup_s, pilot_s, caustic_s, maps_s, backward_s, secondary_s, readings_s);
     }
+};
+
+/// What is furthest from the accuracy that is asked for.
+struct Furthest {
+    std::string reading;  ///< such as "desk plane[3,1]"; empty for the noise of the images
+    double excess = 0.0;  ///< its uncertainty over what is asked for; 0 if nothing is
 };
 
 struct Result {

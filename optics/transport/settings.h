@@ -62,12 +62,6 @@ struct SensorTarget {
     }
 };
 
-/// What is furthest from the accuracy that is asked for.
-struct Furthest {
-    std::string reading;  ///< such as "desk plane[3,1]"; empty for the noise of the images
-    double excess = 0.0;  ///< its uncertainty over what is asked for; 0 if nothing is
-};
-
 struct Settings {
     Method method = Method::automatic;
     std::uint64_t seed = 1;

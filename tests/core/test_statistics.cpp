@@ -167,7 +167,7 @@ TEST_CASE("As much of a bias is taken off as lowers the error of such values", "
             estimate.add(truth + bias + noise,
                          bias + noise_of_bias * (0.6 * noise + 0.8 * normal()));
         }
-        chosen += square(estimate.value(estimate.correction(expected)) - truth) / values;
+        chosen += square(estimate.value(estimate.corrected_share(expected)) - truth) / values;
         for (std::size_t i = 0; i < fixed.size(); ++i) {
             fixed[i] += square(estimate.value(0.05 * static_cast<double>(i)) - truth) / values;
         }
@@ -188,12 +188,12 @@ TEST_CASE("A bias that is clear of its noise is taken off whatever is expected",
     // Of 2.2 +/- 0.02 the noise tells nothing about the value.
     CHECK_THAT(estimate.bias(), WithinRel(2.2, 1e-12));
     CHECK_THAT(estimate.bias_standard_error(), WithinRel(0.2 / std::sqrt(99.0), 1e-9));
-    CHECK_THAT(estimate.correction(0.0), WithinAbs(1.0, 1e-4));
+    CHECK_THAT(estimate.corrected_share(0.0), WithinAbs(1.0, 1e-4));
     // Twin: one that is not is left where none is expected.
     Estimate unclear;
     for (int i = 0; i < 100; ++i) unclear.add(10.0 + 0.1 * (i % 2), 2.2 * (i / 2 % 2 ? 5.0 : -4.0));
     CHECK(unclear.bias() > 1.0);
-    CHECK_THAT(unclear.correction(0.0), WithinAbs(0.0, 1e-12));
+    CHECK_THAT(unclear.corrected_share(0.0), WithinAbs(0.0, 1e-12));
     // Few phases know their noise badly: 4 standard deviations are as many standard errors as
     // Student's t has for the same probability.
     for (const int phases : {10, 40, 300}) {
@@ -203,13 +203,13 @@ TEST_CASE("A bias that is clear of its noise is taken off whatever is expected",
             for (int i = 0; i < phases; ++i) {
                 few.add(10.0, errors / std::sqrt(phases - 1.0) + (i % 2 ? 1.0 : -1.0));
             }
-            CHECK((few.correction(0.0) > 0.5) == (errors > t));
+            CHECK((few.corrected_share(0.0) > 0.5) == (errors > t));
         }
     }
     // A single phase tells nothing of either: the bias is taken off.
     Estimate single;
     single.add(10.0, 2.0);
-    CHECK(single.correction(0.0) == 1.0);
+    CHECK(single.corrected_share(0.0) == 1.0);
 }
 
 TEST_CASE("What is left of a bias beside an edge lies within the interval", "[unit]") {

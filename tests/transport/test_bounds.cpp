@@ -97,7 +97,7 @@ TEST_CASE("The errors of an image are those of its pixels", "[unit]") {
     double values = 0.0, noise = 0.0, left = 0.0, whole_noise = 0.0, least = 1.0, most = 0.0;
     for (std::size_t i = 0; i < image.luminance.size(); ++i) {
         const Estimate& pixel = image.luminance[i];
-        const double share = image.correction(i);
+        const double share = image.corrected_share(i);
         const double of_bias = square(pixel.bias()) - square(pixel.bias_standard_error());
         values += square(pixel.mean() - share * pixel.bias());
         noise += square(pixel.standard_error(share));

@@ -1,6 +1,7 @@
 #include "optics/light/spherical_rectangle.h"
 
 #include <algorithm>
+#include <complex>
 
 namespace lucerna::optics {
 namespace {
@@ -20,6 +21,13 @@ double normal_z(double a, double z) {
 // Of what is positive but for rounding, to divide by.
 double root(double x) {
     return std::sqrt(std::max(x, 1e-300));
+}
+
+// exp(i g) for the angle g between two neighbouring planes, by the z components of their normals,
+// which are perpendicular to x and y: cos g = -n m, and the square of the sine without
+// cancellation.
+std::complex<double> corner(double n, double m) {
+    return {-n * m, std::sqrt((1.0 - n) * (1.0 + n) + n * n * (1.0 - m) * (1.0 + m))};
 }
 
 }  // namespace
@@ -49,26 +57,27 @@ std::optional<SphericalRectangle> SphericalRectangle::seen_from(const Vec3& x,
     const double normal_x0 = normal_z(seen.x0_, seen.z_);
     const double normal_x1 = -normal_z(seen.x1_, seen.z_);
     // Angles between neighbouring planes; their sum exceeds that of a flat rectangle by the solid
-    // angle (Girard).
-    const double g0 = std::acos(-seen.normal_y0_ * normal_x1);
-    const double g1 = std::acos(-normal_x1 * seen.normal_y1_);
-    const double g2 = std::acos(-seen.normal_y1_ * normal_x0);
-    const double g3 = std::acos(-normal_x0 * seen.normal_y0_);
-    seen.k_ = 2.0 * pi - g2 - g3;
-    seen.solid_angle_sr_ = g0 + g1 - seen.k_;
-    if (seen.solid_angle_sr_ < least_solid_angle_sr) return std::nullopt;
+    // angle (Girard). As unit numbers: their products have the sums of the angles, without an arc
+    // cosine for each.
+    const std::complex first =
+        corner(seen.normal_y0_, normal_x1) * corner(normal_x1, seen.normal_y1_);
+    const std::complex last =
+        corner(seen.normal_y1_, normal_x0) * corner(normal_x0, seen.normal_y0_);
+    seen.from_k_ = std::conj(last);
+    const double excess = std::arg(first * last);  // over a whole turn
+    if (std::abs(excess) < least_solid_angle_sr) return std::nullopt;
+    seen.solid_angle_sr_ = excess < 0.0 ? excess + 2.0 * pi : excess;
     return seen;
 }
 
 Vec3 SphericalRectangle::sample(double u1, double u2) const {
     // Which x cuts off the share u1 of the solid angle, and along the arc above it which y.
-    const double angle = u1 * solid_angle_sr_ + k_;
-    const double f = std::cos(angle) * normal_y0_ - normal_y1_;
-    const double s = std::sin(angle);
-    const double c =
-        std::copysign(1.0, f * s) * std::abs(s) / root(square(f) + square(normal_y0_ * s));
-    const double sine = root(1.0 - c * c);
-    const double x = std::clamp(-c * z_ / sine, x0_, x1_);
+    const std::complex turn = std::polar(1.0, u1 * solid_angle_sr_) * from_k_;
+    const double f = turn.real() * normal_y0_ - normal_y1_;
+    const double s = turn.imag();
+    // c_u of section 4 is +-s over the root of f^2 + (n s)^2; x = -z c_u / sqrt(1 - c_u^2).
+    const double root_of_difference = root(square(f) - square(s) * (1.0 - square(normal_y0_)));
+    const double x = std::clamp(-z_ * std::copysign(1.0, f) * s / root_of_difference, x0_, x1_);
     const double d = std::sqrt(x * x + z_ * z_);
     const double h0 = y0_ / std::sqrt(d * d + y0_ * y0_);
     const double h1 = y1_ / std::sqrt(d * d + y1_ * y1_);

@@ -1,6 +1,7 @@
 // A rectangle as seen from a point: sampled uniformly per solid angle.
 #pragma once
 
+#include <complex>
 #include <optional>
 
 #include "core/vector.h"
@@ -28,8 +29,10 @@ private:
     // In the frame of the rectangle with x at its origin: from (x0, y0) to (x1, y1), below x.
     double x0_ = 0.0, x1_ = 0.0, y0_ = 0.0, y1_ = 0.0, z_ = 0.0;
     double width_m_ = 0.0, height_m_ = 0.0;
-    // z components of the normals of the planes through x and the edges y0 and y1; k: section 4.
-    double normal_y0_ = 0.0, normal_y1_ = 0.0, k_ = 0.0;
+    // z components of the normals of the planes through x and the edges y0 and y1; exp(i k) with k
+    // of section 4.
+    double normal_y0_ = 0.0, normal_y1_ = 0.0;
+    std::complex<double> from_k_;
     double solid_angle_sr_ = 0.0;
 };
 

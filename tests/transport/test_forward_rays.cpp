@@ -71,3 +71,28 @@ TEST_CASE("Caustic rays that sensors need are not spared for an image") {
     CHECK(rays(true) >= usual);
     CHECK(rays(false) < usual);
 }
+
+TEST_CASE("Rays go to the map whose light is the noisier in view") {
+    // A ball of glass under a small lamp. In a dark room its caustic is all the light that maps
+    // hold; before a bright wall there is no caustic.
+    const auto plan = [](double reflectance, const Vec3& target) {
+        SceneBuilder scene;
+        const BsdfId walls = scene.diffuse(reflectance);
+        for (const Shape& wall : SceneBuilder::room(1.0, 1.0, 1.0))
+            scene.object("wall", wall, walls);
+        scene.area_light(
+            scene.object("lamp", Disk{{0.7, 0.5, 0.95}, -Vec3::UnitZ(), 0.05}, scene.black()), 1e4);
+        scene.solid("ball", Sphere{{0.7, 0.5, 0.25}, 0.15}, scene.medium(1.5));
+        scene.camera({0.3, 0.5, 0.5}, target, Vec3(0.1, 0.0, 1.0), 0.4, 128, 128);
+        Settings settings;
+        settings.method = Method::forward;
+        settings.samples_per_pixel = 8;
+        return plan_of(scene, settings);
+    };
+    const Plan on_caustic = plan(0.05, {0.7, 0.5, 0.0});
+    INFO("caustic " << on_caustic.caustic_rays << ", indirect " << on_caustic.indirect_rays);
+    CHECK(2 * on_caustic.caustic_rays > 3 * on_caustic.indirect_rays);
+    const Plan on_wall = plan(0.8, {0.0, 0.5, 0.9});
+    INFO("caustic " << on_wall.caustic_rays << ", indirect " << on_wall.indirect_rays);
+    CHECK(2 * on_wall.indirect_rays > 3 * on_wall.caustic_rays);
+}

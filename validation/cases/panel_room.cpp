@@ -2,11 +2,50 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 namespace lucerna::validation {
 namespace {
 
 Vec3 inward_normal(const truth::Panel& panel) {
     return (panel.plane_m == 0.0 ? 1.0 : -1.0) * Vec3::Unit(panel.axis);
+}
+
+constexpr const char* by_radiosity =
+    "radiosity integral equation, Galerkin with exchange factors in closed form "
+    "(Howell's catalogue, C-13 and C-15), extrapolated";
+
+// Solutions of one room, and what they know of a functional.
+class RoomTruth {
+public:
+    explicit RoomTruth(const std::vector<NamedPanel>& panels) {
+        std::vector<truth::Panel> plain;
+        for (const NamedPanel& own : panels) plain.push_back(own.panel);
+        for (const int cells : {4, 6, 8, 12}) rooms_.emplace_back(plain, cells);
+    }
+
+    template <typename Functional>
+    Check check(const std::string& name, const char* quantity, const char* unit, Read read,
+                const Functional& functional) const {
+        const double value = extrapolated(rooms_[1], rooms_[3], functional);
+        // In narrow rooms cells are as wide as what they ought to tell apart.
+        const double change = std::abs(value - extrapolated(rooms_[0], rooms_[2], functional));
+        const double error = std::max(radiosity_error * value, change);
+        return {name, quantity, unit, value, error, std::move(read), 0.015};
+    }
+
+private:
+    std::vector<truth::RoomRadiosity> rooms_;
+};
+
+// Nothing where the panel is left out.
+std::optional<optics::ObjectId> add_panel(SceneBuilder& scene, const NamedPanel& named) {
+    const truth::Panel& panel = named.panel;
+    if (panel.reflectance == 0.0) return std::nullopt;
+    const optics::ObjectId wall =
+        scene.object(named.name, rectangle(panel), scene.diffuse(panel.reflectance));
+    if (panel.emitted_luminance > 0.0) scene.area_light(wall, panel.emitted_luminance);
+    return wall;
 }
 
 }  // namespace
@@ -31,19 +70,11 @@ double area_m2(const truth::Panel& panel) {
 Case room_case(const std::string& id, const std::string& title,
                const std::vector<NamedPanel>& panels, const std::vector<WallPoint>& points,
                const optics::Settings& settings) {
-    std::vector<truth::Panel> plain;
-    for (const NamedPanel& own : panels) plain.push_back(own.panel);
-    const truth::RoomRadiosity coarse(plain, 6), fine(plain, 12);
-    const truth::RoomRadiosity coarser(plain, 4), finer(plain, 8);
-
+    const RoomTruth truth(panels);
     SceneBuilder scene;
     std::vector<Check> checks;
     const auto check = [&](const std::string& name, Read read, const auto& functional) {
-        const double value = extrapolated(coarse, fine, functional);
-        // In narrow rooms cells are as wide as what they ought to tell apart.
-        const double change = std::abs(value - extrapolated(coarser, finer, functional));
-        const double error = std::max(radiosity_error * value, change);
-        checks.push_back({name, "illuminance", "lx", value, error, std::move(read), 0.015});
+        checks.push_back(truth.check(name, "illuminance", "lx", std::move(read), functional));
     };
     for (const WallPoint& point : points) {
         check(point.name, sensor(checks.size()), [&](const truth::RoomRadiosity& room) {
@@ -53,24 +84,35 @@ Case room_case(const std::string& id, const std::string& title,
     }
     std::size_t next = points.size();
     for (std::size_t i = 0; i < panels.size(); ++i) {
-        const truth::Panel& panel = panels[i].panel;
-        if (panel.reflectance == 0.0) continue;
-        const optics::ObjectId wall =
-            scene.object(panels[i].name, rectangle(panel), scene.diffuse(panel.reflectance));
-        if (panel.emitted_luminance > 0.0) scene.area_light(wall, panel.emitted_luminance);
-        if (!panels[i].mean_is_checked) continue;
-        scene.receiver(wall);
-        check(fmt::format("mean of {}", panels[i].name), scaled(sensor(next), 1.0 / area_m2(panel)),
+        const std::optional<optics::ObjectId> wall = add_panel(scene, panels[i]);
+        if (!wall || !panels[i].mean_is_checked) continue;
+        scene.receiver(*wall);
+        check(fmt::format("mean of {}", panels[i].name),
+              scaled(sensor(next), 1.0 / area_m2(panels[i].panel)),
               [&](const truth::RoomRadiosity& room) { return room.mean_illuminance(i); });
         next += 2;  // front and back
     }
-    return {id,
-            title,
-            "radiosity integral equation, Galerkin with exchange factors in closed form "
-            "(Howell's catalogue, C-13 and C-15), extrapolated",
-            scene.parts,
-            settings,
-            checks};
+    return {id, title, by_radiosity, scene.parts, settings, checks};
+}
+
+Case spot_case(const std::string& id, const std::string& title,
+               const std::vector<NamedPanel>& panels, const std::vector<WallSpot>& spots,
+               const optics::Settings& settings) {
+    const RoomTruth truth(panels);
+    SceneBuilder scene;
+    std::vector<Check> checks;
+    for (const NamedPanel& panel : panels) add_panel(scene, panel);
+    for (const WallSpot& spot : spots) {
+        checks.push_back(
+            truth.check(spot.name, "luminance", "cd/m2", sensor(checks.size()),
+                        [&](const truth::RoomRadiosity& room) {
+                            return room.cone_luminance(
+                                spot.panel, inward_normal(panels[spot.panel].panel), spot.position,
+                                (spot.target - spot.position).normalized(), spot.half_angle_rad);
+                        }));
+        scene.meter(spot.position, spot.target, spot.half_angle_rad);
+    }
+    return {id, title, by_radiosity, scene.parts, settings, checks};
 }
 
 void add_sky(SceneBuilder& scene, const optics::Rectangle& opening, double luminance) {

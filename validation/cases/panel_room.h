@@ -24,6 +24,14 @@ struct WallPoint {
     Vec3 position, normal;
 };
 
+/// What a luminance meter sees: a cone within one panel.
+struct WallSpot {
+    std::string name;
+    std::size_t panel;
+    Vec3 position, target;
+    double half_angle_rad;
+};
+
 optics::Rectangle rectangle(const truth::Panel& panel);
 double area_m2(const truth::Panel& panel);
 
@@ -33,6 +41,11 @@ double area_m2(const truth::Panel& panel);
 /// its error at least what 4 and 8 cells change.
 Case room_case(const std::string& id, const std::string& title,
                const std::vector<NamedPanel>& panels, const std::vector<WallPoint>& points,
+               const optics::Settings& settings);
+
+/// The same room, looked at by luminance meters.
+Case spot_case(const std::string& id, const std::string& title,
+               const std::vector<NamedPanel>& panels, const std::vector<WallSpot>& spots,
                const optics::Settings& settings);
 
 /// A uniform sky behind a rectangular opening whose normal u x v points into the room: a black

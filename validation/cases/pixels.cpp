@@ -127,7 +127,7 @@ Case box() {
             "radiosity as in closed_box, over each pixel that sees one wall by Gauss-Legendre "
             "quadrature",
             scene.parts,
-            by_default(160),
+            by_default(256),
             checks};
 }
 

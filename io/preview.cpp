@@ -44,9 +44,10 @@ NaturalPreview natural_preview(const optics::Image& image) {
     const double white = percentile(sorted_luminances(image), exposure_percentile) / exposure_level;
     std::vector<std::array<float, 3>> xyz(image.luminance.size());
     for (std::size_t i = 0; i < xyz.size(); ++i) {
-        xyz[i] = to_float(Vec3(double{image.x[i]}, image.luminance[i].value(image.corrected_share(i)),
-                               double{image.z[i]}) /
-                          white);
+        xyz[i] =
+            to_float(Vec3(double{image.x[i]}, image.luminance[i].value(image.corrected_share(i)),
+                          double{image.z[i]}) /
+                     white);
     }
     NaturalPreview preview{Raster(image.width, image.height, {}), white};
     preview.raster.pixels = encode_for_display(std::move(xyz));

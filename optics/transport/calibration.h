@@ -9,6 +9,10 @@
 
 namespace lucerna::optics {
 
+/// Share of a value that single precision of spectra may round: of direct light, which is read with
+/// hardly any noise once the luck of the wavelengths is taken off, up to 2e-7 is seen.
+inline constexpr double relative_rounding = 1e-6;
+
 /// The wavelengths of a phase bring more or less of the emission than there is, which is known: by
 /// 0.5 % of its luminance, and much more of its colour. Readings follow that as far as their light
 /// comes straight or is scattered, wholly in grey scenes; light behind dispersive glass has

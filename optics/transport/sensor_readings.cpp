@@ -4,19 +4,12 @@
 #include <algorithm>
 
 #include "optics/transport/calibration.h"
+#include "optics/transport/grid_figures.h"
 #include "optics/transport/readings.h"
 #include "spectral/colorimetry.h"
 
 namespace lucerna::optics {
 namespace {
-
-// Points whose value is as near to the least one as this many standard errors of the difference
-// might be the least in truth.
-constexpr double rival_errors = 2.0;
-
-// Share of a value that single precision of spectra may round: of direct light, which is read with
-// hardly any noise once the luck of the wavelengths is taken off, up to 2e-7 is seen.
-constexpr double rounding = 1e-6;
 
 const std::string& name_of(const Observer& observer) {
     return std::visit([](const auto& o) -> const std::string& { return o.name; }, observer);
@@ -38,8 +31,8 @@ std::string bin_name(const Observer& observer, std::size_t bin) {
 Uncertain Readings::result_of_sensor(const Calibration& calibration, std::size_t bin) const {
     const Estimate& estimate = luminance_[bin];
     Uncertain result = calibration.of([&](auto&& value) { return value(bin, 1); });
-    result.bias_left = std::max(
-        {estimate.bias_left(), steps_[bin].beyond_noise(), rounding * std::abs(result.value)});
+    result.bias_left = std::max({estimate.bias_left(), steps_[bin].beyond_noise(),
+                                 relative_rounding * std::abs(result.value)});
     return result;
 }
 
@@ -82,7 +75,8 @@ std::optional<Colour> Readings::colour(const Calibration& calibration,
     const auto with_bias_left = [](Uncertain value, double corrected) {
         const double beyond_noise =
             std::sqrt(std::max(0.0, square(corrected) - square(value.standard_error)));
-        value.bias_left = std::max(part_left * beyond_noise, rounding * std::abs(value.value));
+        value.bias_left =
+            std::max(part_left * beyond_noise, relative_rounding * std::abs(value.value));
         return value;
     };
     const auto share = [&](std::size_t part) {
@@ -149,75 +143,22 @@ std::vector<DerivedQuantity> Readings::derived(const SceneParts& parts) const {
         const ObserverBins& bins = observers_[i];
         const auto* points = std::get_if<IlluminancePoints>(&parts.observers[bins.observer]);
         if (points == nullptr || bins.count < 2) continue;
-        const std::size_t first = bins.first_bin;
-        const auto y_of_mean = [&](std::size_t bin) { return calibration.value(bin, 1); };
-        std::size_t least = 0;
-        std::size_t greatest = 0;
+        std::vector<double> bias_left;
         for (std::size_t k = 0; k < bins.count; ++k) {
-            const double value = y_of_mean(first + k);
-            if (value < y_of_mean(first + least)) least = k;
-            if (value > y_of_mean(first + greatest)) greatest = k;
+            bias_left.push_back(result_of_sensor(calibration, bins.first_bin + k).bias_left);
         }
-        const auto mean_of = [&](auto&& value) {
-            double sum = 0.0;
-            for (std::size_t k = 0; k < bins.count; ++k) sum += value(first + k, 1);
-            return sum / static_cast<double>(bins.count);
-        };
-        const auto at = [&](std::size_t k) {
-            return [&, k](auto&& value) { return value(first + k, 1); };
-        };
-        const auto candidates_for = [&](std::size_t chosen) {
-            double candidates = 1.0;
-            for (std::size_t k = 0; k < bins.count; ++k) {
-                // Points share photons and wavelengths, so that their difference is often known far
-                // better than they are.
-                const Uncertain apart = calibration.of(
-                    [&](auto&& value) { return value(first + k, 1) - value(first + chosen, 1); });
-                const bool rival = std::abs(apart.value) <= rival_errors * apart.standard_error;
-                if (k != chosen && rival) ++candidates;
-            }
-            return candidates;
-        };
-        // What is left of biases of points is not correlated: on the dark side of a step it is
-        // light too many, on the bright one too few.
-        const auto bias_left = [&](std::size_t k) {
-            return result_of_sensor(calibration, first + k).bias_left;
-        };
-        double square_of_biases = 0.0;
-        for (std::size_t k = 0; k < bins.count; ++k) square_of_biases += square(bias_left(k));
-        const double bias_of_mean = std::sqrt(square_of_biases) / static_cast<double>(bins.count);
-        const auto relative = [](double bias, double value) {
-            return value > 0.0 ? bias / value : 0.0;
-        };
+        const GridFigures figures(calibration, bins.first_bin, std::move(bias_left));
         const auto report = [&](const char* what, const char* quantity, const char* unit,
-                                Uncertain result, double candidates, double bias) {
-            result.candidates = candidates;
-            result.bias_left = std::max(bias, rounding * std::abs(result.value));
+                                const Uncertain& result) {
             derived.push_back({points->name + ": " + what, quantity, unit, result});
         };
-        const double of_least = candidates_for(least);
-        const double of_greatest = candidates_for(greatest);
-        report("mean", "average illuminance", "lx", calibration.of(mean_of), 1.0, bias_of_mean);
-        report("minimum", "minimum illuminance", "lx", calibration.of(at(least)), of_least,
-               bias_left(least));
-        report("maximum", "maximum illuminance", "lx", calibration.of(at(greatest)), of_greatest,
-               bias_left(greatest));
-        const double of_value = relative(bias_left(least), y_of_mean(first + least));
-        const auto ratio_to = [&](auto&& denominator) {
-            return calibration.of(
-                [&](auto&& value) { return value(first + least, 1) / denominator(value); });
-        };
-        const auto bias_of_ratio = [&](const Uncertain& ratio, double bias, auto&& denominator) {
-            const double value = denominator(
-                [&](std::size_t bin, std::size_t part) { return calibration.value(bin, part); });
-            return ratio.value * std::hypot(of_value, relative(bias, value));
-        };
-        const Uncertain uniformity = ratio_to(mean_of);
-        report("uniformity U0", "illuminance uniformity, minimum / average", "1", uniformity,
-               of_least, bias_of_ratio(uniformity, bias_of_mean, mean_of));
-        const Uncertain diversity = ratio_to(at(greatest));
-        report("diversity Ud", "illuminance diversity, minimum / maximum", "1", diversity,
-               of_least * of_greatest, bias_of_ratio(diversity, bias_left(greatest), at(greatest)));
+        report("mean", "average illuminance", "lx", figures.mean());
+        report("minimum", "minimum illuminance", "lx", figures.minimum());
+        report("maximum", "maximum illuminance", "lx", figures.maximum());
+        report("uniformity U0", "illuminance uniformity, minimum / average", "1",
+               figures.minimum_to_mean());
+        report("diversity Ud", "illuminance diversity, minimum / maximum", "1",
+               figures.minimum_to_maximum());
     }
     return derived;
 }

@@ -64,10 +64,11 @@ std::vector<std::vector<Arrival>> arrivals_by_patch(const Stage& stage, const Se
     return arrivals;
 }
 
-double limit_of_patch_m(const Stage& stage, const SensorPlanes& planes, std::uint32_t patch) {
-    return patch >= stage.patch_count() ? planes.margin_m()
-                                        : std::min(stage.caster().scene_radius_m() / 20.0,
-                                                   std::sqrt(stage.patch_area_m2(patch)) / 8.0);
+double limit_of_patch_m(const Stage& stage, const SensorPlanes& planes, std::uint32_t patch,
+                        double share) {
+    if (patch >= stage.patch_count()) return planes.margin_m();
+    return std::min(stage.caster().scene_radius_m() / 20.0,
+                    share * std::sqrt(stage.patch_area_m2(patch)));
 }
 
 }  // namespace lucerna::optics

@@ -21,7 +21,9 @@ std::vector<std::vector<Arrival>> arrivals_by_patch(const Stage& stage, const Se
                                                     const PilotPhotons& pilot);
 
 /// No kernel of a patch is wider.
-double limit_of_patch_m(const Stage& stage, const SensorPlanes& planes, std::uint32_t patch);
+/// @param share  of a surface's size, the root of its area.
+double limit_of_patch_m(const Stage& stage, const SensorPlanes& planes, std::uint32_t patch,
+                        double share = 1.0 / 8.0);
 
 /// Flux within limit_m, limit_m / sqrt 2, limit_m / 2, ... of a point, the sum of its squares, and
 /// its first and third moment about the point, in units of the limit.

@@ -53,7 +53,9 @@ struct PhotonsPerKernel {
 /// places where the light is, so that a caustic on a wide floor gets the radius of the caustic.
 /// No radius exceeds an eighth of the patch's size, nor a 20th of the scene's radius.
 ///
-/// Where kernels are `seen`, those of surfaces are narrowed until they show no more bias than 15 %.
+/// Where kernels are `seen`, those of surfaces are narrowed until they show no more bias than 15 %,
+/// and those of plane ones may be as wide as a quarter of the patch: few photons find small things,
+/// such as the dots printed on a light guide.
 Radii narrow_radii(const Stage& stage, const SensorPlanes& planes, const PilotPhotons& pilot,
                    const PhotonsPerKernel& photons, std::uint32_t rays, bool seen, int threads);
 

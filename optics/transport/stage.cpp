@@ -149,6 +149,7 @@ Stage::Stage(const SceneParts& parts, std::optional<bool> polarisation)
         patch_offset_.push_back(patch_offset_.back() + patches);
         for (std::uint32_t patch = 0; patch < patches; ++patch) {
             patch_areas_m2_.push_back(optics::patch_area_m2(object.shape, patch));
+            plane_patches_.push_back(is_plane(object.shape, patch));
         }
         if (object.interior) {
             // Well outside of the surface, whose sides are for contains() to tell.

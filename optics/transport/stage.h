@@ -46,6 +46,8 @@ public:
     }
     std::uint32_t patch_count() const { return patch_offset_.back(); }
     double patch_area_m2(std::uint32_t patch) const { return patch_areas_m2_[patch]; }
+    /// See is_plane().
+    bool patch_is_plane(std::uint32_t patch) const { return plane_patches_[patch]; }
 
     /// The virtual surface of illuminance points: Lambertian, reflectance 1.
     BsdfId white_diffuser() const { return white_diffuser_; }
@@ -81,6 +83,7 @@ private:
     std::vector<Sphere> unevenly_sampled_;
     std::vector<std::uint32_t> patch_offset_;  // one more than objects
     std::vector<double> patch_areas_m2_;
+    std::vector<bool> plane_patches_;
     std::vector<bool> scatters_, is_specular_;
     std::vector<std::array<Glossy, 2>> glossy_;
     std::vector<std::pair<ObjectId, Eigen::AlignedBox3d>> solids_;  // objects with an interior

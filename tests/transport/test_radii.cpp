@@ -108,3 +108,33 @@ TEST_CASE("A kernel of a sensor is as wide as light is even around it") {
     // a narrow one might state darkness with hardly any U.
     CHECK(room.radius_m(infinity, 0.0) > 0.99 * margin_m);
 }
+
+TEST_CASE("Few photons on a small thing: kernels are as wide as its patch allows") {
+    SceneBuilder scene;
+    const double radius_m = 0.01;
+    scene.object("dot", Disk{Vec3::Zero(), Vec3::UnitZ(), radius_m}, scene.black());
+    scene.object("ball", Sphere{{0.5, 0, 0}, radius_m}, scene.black());
+    scene.object("floor", Rectangle{{-1, -1, -1}, {2, 0, 0}, {0, 2, 0}}, scene.black());
+    scene.light("light", PointLight{{0, 0, 3}}, 1.0);
+    scene.points({Vec3::Zero()}, Vec3::UnitZ());
+    const Stage stage{scene.parts};
+    const SensorPlanes planes{stage.parts(), stage.caster(), margin_m};
+    // 30 on each: no kernel holds as many as are wanted.
+    PilotPhotons pilot{{}, 1000, Lanes::Ones()};
+    for (std::uint32_t i = 0; i < 60; ++i) {
+        RandomStream random(1, 0, RandomPurpose::test, i);
+        SurfacePoint point =
+            sample_area(stage.parts().objects[i % 2].shape, random.uniform(), random.uniform());
+        point.object = i % 2;
+        pilot.photons.push_back({point, -point.normal, Lanes::Ones(), History::caustic});
+    }
+    const double dot_m = std::sqrt(pi) * radius_m, ball_m = std::sqrt(4.0 * pi) * radius_m;
+    const Radii seen = narrow_radii(stage, planes, pilot, {100.0, 100.0}, 1000, true, 1);
+    CHECK(seen[0] == Approx(dot_m / 4.0));
+    CHECK(seen[1] == Approx(ball_m / 8.0));
+    const Radii wide = wide_radii(stage, planes, pilot, 1);
+    CHECK(wide[0] == Approx(dot_m / 4.0));
+    CHECK(wide[1] == Approx(ball_m / 8.0));
+    const Radii hidden = narrow_radii(stage, planes, pilot, {100.0, 100.0}, 1000, false, 1);
+    CHECK(hidden[0] == Approx(dot_m / 8.0));
+}

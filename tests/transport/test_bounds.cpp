@@ -85,7 +85,7 @@ TEST_CASE("A run stops when each sensor has the uncertainty that was asked for",
 }
 
 TEST_CASE("The errors of an image are those of its pixels", "[unit]") {
-    const Result result = test::run(test::cornell_diffuse(24), Method::automatic, {12, 20000, 4});
+    const Result result = test::run(test::cornell_diffuse(24), Method::automatic, {48, 50000, 4});
     const Image& image = result.images.at(0);
     double luminances = 0.0, biases = 0.0;
     for (const Estimate& pixel : image.luminance) {

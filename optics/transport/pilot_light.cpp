@@ -19,6 +19,11 @@ void normalise(std::vector<Arrival>& photons) {
     for (Arrival& photon : photons) photon.flux *= sum / squares;
 }
 
+double limit_of_surface_m(const Stage& stage, std::uint32_t patch, double radii_per_size) {
+    return std::min(stage.caster().scene_radius_m() / 20.0,
+                    std::sqrt(stage.patch_area_m2(patch)) / radii_per_size);
+}
+
 }  // namespace
 
 LightByRadius LightByRadius::around(const Vec3& point, const std::vector<Arrival>& photons,
@@ -64,11 +69,14 @@ std::vector<std::vector<Arrival>> arrivals_by_patch(const Stage& stage, const Se
     return arrivals;
 }
 
-double limit_of_patch_m(const Stage& stage, const SensorPlanes& planes, std::uint32_t patch,
-                        double share) {
-    if (patch >= stage.patch_count()) return planes.margin_m();
-    return std::min(stage.caster().scene_radius_m() / 20.0,
-                    share * std::sqrt(stage.patch_area_m2(patch)));
+double limit_of_patch_m(const Stage& stage, const SensorPlanes& planes, std::uint32_t patch) {
+    return patch >= stage.patch_count() ? planes.margin_m() : limit_of_surface_m(stage, patch, 8.0);
+}
+
+double limit_of_seen_patch_m(const Stage& stage, const SensorPlanes& planes, std::uint32_t patch) {
+    return patch < stage.patch_count() && stage.patch_is_plane(patch)
+               ? limit_of_surface_m(stage, patch, 4.0)
+               : limit_of_patch_m(stage, planes, patch);
 }
 
 }  // namespace lucerna::optics

@@ -20,10 +20,10 @@ struct Arrival {
 std::vector<std::vector<Arrival>> arrivals_by_patch(const Stage& stage, const SensorPlanes& planes,
                                                     const PilotPhotons& pilot);
 
-/// No kernel of a patch is wider.
-/// @param share  of a surface's size, the root of its area.
-double limit_of_patch_m(const Stage& stage, const SensorPlanes& planes, std::uint32_t patch,
-                        double share = 1.0 / 8.0);
+/// No kernel of a patch is wider: an eighth of a surface's size, the root of its area.
+double limit_of_patch_m(const Stage& stage, const SensorPlanes& planes, std::uint32_t patch);
+/// The same where kernels are seen: a quarter of a plane surface.
+double limit_of_seen_patch_m(const Stage& stage, const SensorPlanes& planes, std::uint32_t patch);
 
 /// Flux within limit_m, limit_m / sqrt 2, limit_m / 2, ... of a point, the sum of its squares, and
 /// its first and third moment about the point, in units of the limit.

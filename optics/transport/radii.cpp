@@ -75,9 +75,6 @@ double radius_of_small_bias(const std::vector<Arrival>& photons, double limit_m,
     return radius_m;
 }
 
-// Widest kernels over the size of a patch.
-constexpr double share_of_patch = 1.0 / 8.0, share_of_plane_patch = 1.0 / 4.0;
-
 // @param photons  of the pilot trace in a kernel; what surfaces and sensors ask for comes on top.
 Radii radii_of(const Stage& stage, const SensorPlanes& planes, const PilotPhotons& pilot,
                const PhotonsPerKernel& photons, bool seen, int threads) {
@@ -86,9 +83,8 @@ Radii radii_of(const Stage& stage, const SensorPlanes& planes, const PilotPhoton
     radii_m.reserve(arrivals.size());
     for (std::uint32_t patch = 0; patch < arrivals.size(); ++patch) {
         const bool sensor = patch >= stage.patch_count();
-        const bool wide = seen && !sensor && stage.patch_is_plane(patch);
-        const double limit_m =
-            limit_of_patch_m(stage, planes, patch, wide ? share_of_plane_patch : share_of_patch);
+        const double limit_m = seen ? limit_of_seen_patch_m(stage, planes, patch)
+                                    : limit_of_patch_m(stage, planes, patch);
         double radius_m = limit_m;
         const double photons_per_kernel = sensor ? photons.of_sensors : photons.of_surfaces;
         if (arrivals[patch].size() > 2 * neighbours && photons_per_kernel < infinity) {

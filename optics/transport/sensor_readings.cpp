@@ -125,7 +125,7 @@ std::vector<Quantity> Readings::quantities(const SceneParts& parts) const {
             quantities.push_back({std::move(name), quantity, unit, luminance_[at],
                                   colour(calibration, at), result_of_sensor(calibration, at)});
         };
-        if (const auto* points = std::get_if<IlluminancePoints>(&observer)) {
+        if (std::holds_alternative<IlluminancePoints>(observer)) {
             for (std::size_t k = 0; k < bins.count; ++k) {
                 report(bin_name(observer, k), "illuminance", "lx", k);
             }

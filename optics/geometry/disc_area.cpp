@@ -16,8 +16,9 @@ double signed_angle(const Vec2& a, const Vec2& b) {
     return std::atan2(cross(a, b), a.dot(b));
 }
 
-/// Signed area of the triangle (0, a, b) that lies in the disc around 0: triangles where the edge
-/// runs inside the disc, circular sectors where it runs outside.
+}  // namespace
+
+// Triangles where the edge runs inside the disc, circular sectors where it runs outside.
 double disc_edge_area(const Vec2& a, const Vec2& b, double radius) {
     const double radius_squared = radius * radius;
     const bool a_inside = a.squaredNorm() <= radius_squared;
@@ -45,8 +46,6 @@ double disc_edge_area(const Vec2& a, const Vec2& b, double radius) {
     if (!b_inside) area += sector(q, b);
     return area;
 }
-
-}  // namespace
 
 double disc_polygon_area(std::span<const Vec2> polygon, double radius) {
     double area = 0.0;

@@ -7,6 +7,10 @@
 
 namespace lucerna::optics {
 
+/// Signed area of the part of the triangle (0, a, b) that lies in the disc around 0; positive if
+/// that runs counterclockwise.
+double disc_edge_area(const Vec2& a, const Vec2& b, double radius);
+
 /// Area of the part of a disc around the origin that lies inside a simple polygon.
 ///
 /// @param polygon  corners in order; the area is negative if they run clockwise.

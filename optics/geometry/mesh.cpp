@@ -127,6 +127,7 @@ std::shared_ptr<const Mesh> prepare_mesh(std::vector<Vec3> vertices,
     add_normals_and_areas(*mesh);
     std::vector<std::uint32_t> welded = weld_vertices(mesh->vertices);
     mesh->closed = add_patches(*mesh, welded) && signed_volume_m3(*mesh) > 0.0;
+    mesh->outlines = MeshOutlines(*mesh, welded);
     mesh->search = std::make_shared<MeshSearch>(*mesh, std::move(welded));
     return mesh;
 }

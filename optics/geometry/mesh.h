@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/vector.h"
+#include "optics/geometry/mesh_outlines.h"
 
 namespace lucerna::optics {
 
@@ -23,6 +24,7 @@ struct Mesh {
     std::vector<double> cumulative_area_m2;  ///< running sum of areas
     std::vector<std::uint32_t> patches;      ///< smooth region of each triangle
     std::vector<double> patch_areas_m2;      ///< one per patch
+    MeshOutlines outlines;                   ///< of the plane patches
     bool closed = false;                     ///< encloses a volume, consistently oriented outward
     std::shared_ptr<const MeshSearch> search;
 };

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "optics/geometry/segment.h"
+
 namespace lucerna::optics {
 
 namespace {
@@ -22,11 +24,6 @@ private:
     const Vec3* vertices_;
     const std::array<std::uint32_t, 3>& triangle_;
 };
-
-Vec3 nearest_on_segment(const Vec3& a, const Vec3& b, const Vec3& p) {
-    const Vec3 edge = b - a;
-    return a + std::clamp((p - a).dot(edge) / edge.squaredNorm(), 0.0, 1.0) * edge;
-}
 
 /// Signed distance of p from the line along an edge from a corner, times the edge's length;
 /// positive inside. p lies in the plane.

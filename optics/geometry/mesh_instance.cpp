@@ -1,11 +1,15 @@
 #include <algorithm>
 
 #include "optics/geometry/mesh_search.h"
+#include "optics/geometry/segment.h"
 #include "optics/geometry/shape_parts.h"
 
 namespace lucerna::optics::per_shape {
 
 namespace {
+
+// With more sides an outline takes longer than a search among triangles.
+constexpr std::size_t most_sides = 32;
 
 Vec3 to_local(const MeshInstance& s, const Vec3& p) {
     return s.placement.linear().transpose() * (p - s.placement.translation());
@@ -74,7 +78,28 @@ SurfacePoint sample_area(const MeshInstance& s, double u1, double u2) {
 }
 
 double kernel_area_m2(const MeshInstance& s, const SurfacePoint& p, double radius_m) {
-    return s.mesh->search->area_in_ball_m2(*s.mesh, p.patch, to_local(s, p.position), radius_m);
+    const Vec3 centre = to_local(s, p.position);
+    const std::size_t sides = s.mesh->outlines.of(p.patch).size();
+    if (sides > 0 && sides <= most_sides) {
+        return plane_area_in_ball_m2(*s.mesh, p.primitive, centre, radius_m);
+    }
+    const double area_m2 = s.mesh->search->area_in_ball_m2(*s.mesh, p.patch, centre, radius_m);
+    const double disc_m2 = pi * radius_m * radius_m;
+    return std::abs(area_m2 - disc_m2) < 1e-9 * disc_m2 ? disc_m2 : area_m2;
+}
+
+std::vector<std::array<Vec3, 2>> outline_near(const MeshInstance& s, const SurfacePoint& p,
+                                              double radius_m) {
+    const Vec3 centre = to_local(s, p.position);
+    std::vector<std::array<Vec3, 2>> near;
+    for (const auto& [from, to] : s.mesh->outlines.of(p.patch)) {
+        const Vec3& a = s.mesh->vertices[from];
+        const Vec3& b = s.mesh->vertices[to];
+        if ((nearest_on_segment(a, b, centre) - centre).squaredNorm() < square(radius_m)) {
+            near.push_back({s.placement * a, s.placement * b});
+        }
+    }
+    return near;
 }
 
 }  // namespace lucerna::optics::per_shape

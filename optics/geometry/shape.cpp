@@ -72,7 +72,38 @@ double kernel_area_m2(const Shape& shape, const SurfacePoint& p, double radius_m
 bool is_plane(const Shape& shape, std::uint32_t patch) {
     if (std::holds_alternative<Cylinder>(shape)) return patch >= 1;
     if (std::holds_alternative<Tube>(shape)) return patch >= 2;
-    return !std::holds_alternative<Sphere>(shape) && !std::holds_alternative<MeshInstance>(shape);
+    if (const auto* s = std::get_if<MeshInstance>(&shape)) return s->mesh->outlines.is_plane(patch);
+    return !std::holds_alternative<Sphere>(shape);
+}
+
+double off_plane_m(const Shape& shape, double radius_m) {
+    const auto* s = std::get_if<MeshInstance>(&shape);
+    return s ? 2.0 * s->mesh->outlines.tolerance_m() + MeshOutlines::tilt_rad * radius_m : 0.0;
+}
+
+std::vector<std::array<Vec3, 2>> outline_near(const Shape& shape, const SurfacePoint& p,
+                                              double radius_m) {
+    const auto ring = [](const std::array<Vec3, 4>& corners) {
+        std::vector<std::array<Vec3, 2>> sides;
+        for (std::size_t i = 0; i < 4; ++i) sides.push_back({corners[i], corners[(i + 1) % 4]});
+        return sides;
+    };
+    if (const auto* s = std::get_if<Rectangle>(&shape)) {
+        return ring({s->corner, s->corner + s->edge_u, s->corner + s->edge_u + s->edge_v,
+                     s->corner + s->edge_v});
+    }
+    if (const auto* s = std::get_if<Box>(&shape)) {
+        const auto axis = static_cast<int>(p.patch / 2);
+        const Vec3 u = s->size_m[(axis + 1) % 3] * Vec3::Unit((axis + 1) % 3);
+        const Vec3 v = s->size_m[(axis + 2) % 3] * Vec3::Unit((axis + 2) % 3);
+        const Vec3 corner = (p.patch % 2 == 1 ? s->size_m[axis] : 0.0) * Vec3::Unit(axis);
+        return ring({s->placement * corner, s->placement * (corner + u),
+                     s->placement * (corner + u + v), s->placement * (corner + v)});
+    }
+    if (const auto* s = std::get_if<MeshInstance>(&shape)) {
+        return per_shape::outline_near(*s, p, radius_m);
+    }
+    return {};
 }
 
 bool unrolls(const Shape& shape, std::uint32_t patch) {

@@ -80,8 +80,17 @@ SurfacePoint sample_area(const Shape& shape, double u1, double u2);
 /// it is meshed, not of the smooth one that the mesh stands for.
 double kernel_area_m2(const Shape& shape, const SurfacePoint& p, double radius_m);
 
-/// True if the patch lies in a plane by its kind; those of meshes may, but are not looked at.
+/// True if the patch lies in a plane; that of a mesh but for the digits of its file.
 bool is_plane(const Shape& shape, std::uint32_t patch);
+
+/// Sides of the outline of a patch where it is plane and they are straight: all of them, or of a
+/// mesh those that are closer to the point than the radius.
+std::vector<std::array<Vec3, 2>> outline_near(const Shape& shape, const SurfacePoint& p,
+                                              double radius_m);
+
+/// How far from the plane through one of its points, along its normal, those of a plane patch may
+/// lie that are closer than the radius [m].
+double off_plane_m(const Shape& shape, double radius_m);
 
 /// True if kernels of the patch take distances along the unrolled surface; else they are straight.
 bool unrolls(const Shape& shape, std::uint32_t patch);

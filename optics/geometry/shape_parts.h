@@ -84,6 +84,8 @@ bool contains(const MeshInstance&, const Vec3&);
 Eigen::AlignedBox3d bounds(const MeshInstance&);
 SurfacePoint sample_area(const MeshInstance&, double u1, double u2);
 double kernel_area_m2(const MeshInstance&, const SurfacePoint&, double radius_m);
+std::vector<std::array<Vec3, 2>> outline_near(const MeshInstance&, const SurfacePoint&,
+                                              double radius_m);
 
 /// The patch for a uniform number u, with probability in proportion to its area; u becomes a fresh
 /// uniform number.

@@ -139,14 +139,16 @@ ForwardMap::Buckets ForwardMap::buckets_around(const Stage& stage, const GatherP
                                                double cell_m, double radius_m) const {
     const Vec3& centre = at.point.position;
     const std::uint32_t patch = kernel_patch(stage, at.point);
-    const bool plane = at.point.object == no_object ||
-                       is_plane(stage.parts().objects[at.point.object].shape, at.point.patch);
+    const bool on_sensor = at.point.object == no_object;
+    const bool plane = on_sensor || stage.patch_is_plane(patch);
     const Vec3 reach = Vec3::Constant(radius_m);
     const CellKey low = CellKey::at(patch, centre - reach, cell_m);
     const CellKey high = CellKey::at(patch, centre + reach, cell_m);
     // A plane meets the cells whose centres are no further from it than this.
     const Vec3& normal = at.point.normal;
-    const double thickness_m = 0.5001 * cell_m * normal.lpNorm<1>() + stage.nudge_m();
+    const double off_plane_m =
+        on_sensor ? 0.0 : optics::off_plane_m(stage.parts().objects[at.point.object].shape, cell_m);
+    const double thickness_m = 0.5001 * cell_m * normal.lpNorm<1>() + off_plane_m + stage.nudge_m();
     Buckets buckets;
     for (std::int32_t x = low.x; x <= high.x; ++x) {
         for (std::int32_t y = low.y; y <= high.y; ++y) {

@@ -17,23 +17,6 @@ constexpr double least_steepness = 0.2;
 // Stands for infinity, in radii.
 constexpr double far = 1e4;
 
-// Corners of a patch that is a rectangle.
-std::optional<std::array<Vec3, 4>> rectangle_of(const Shape& shape, std::uint32_t patch) {
-    if (const auto* s = std::get_if<Rectangle>(&shape)) {
-        return std::array<Vec3, 4>{s->corner, s->corner + s->edge_u,
-                                   s->corner + s->edge_u + s->edge_v, s->corner + s->edge_v};
-    }
-    if (const auto* s = std::get_if<Box>(&shape)) {
-        const auto axis = static_cast<int>(patch / 2);
-        const Vec3 u = s->size_m[(axis + 1) % 3] * Vec3::Unit((axis + 1) % 3);
-        const Vec3 v = s->size_m[(axis + 2) % 3] * Vec3::Unit((axis + 2) % 3);
-        const Vec3 corner = (patch % 2 == 1 ? s->size_m[axis] : 0.0) * Vec3::Unit(axis);
-        return std::array<Vec3, 4>{s->placement * corner, s->placement * (corner + u),
-                                   s->placement * (corner + u + v), s->placement * (corner + v)};
-    }
-    return std::nullopt;
-}
-
 // Directions must not be the same everywhere: a number from 0 to 1 that hangs on the position
 // alone.
 double turn_of(const Vec3& position) {
@@ -89,11 +72,11 @@ std::optional<KernelRegion> KernelRegion::within(const Stage& stage, const Surfa
     const bool mesh = std::holds_alternative<MeshInstance>(shape);
     if (!mesh && !is_plane(shape, centre.patch)) return std::nullopt;
     KernelRegion region(centre.position, side, radius_m);
-    if (const auto corners = rectangle_of(shape, centre.patch)) {
-        region.has_outline_ = true;
-        for (std::size_t i = 0; i < 4; ++i) region.outline_[i] = region.local((*corners)[i]);
+    for (const auto& [a, b] : outline_near(shape, centre, radius_m)) {
+        region.outline_.push_back({region.local(a), region.local(b)});
     }
     const Vec3 origin = centre.position + height * radius_m * side;
+    std::array<Barrier, sectors> met;
     bool any = false;
     for (int i = 0; i < sectors; ++i) {
         const double angle = 2.0 * pi / sectors * (i + 0.5);
@@ -108,12 +91,11 @@ std::optional<KernelRegion> KernelRegion::within(const Stage& stage, const Surfa
         Vec2 normal(n.dot(region.x_axis_), n.dot(region.y_axis_));
         if (normal.dot(direction) < 0.0) normal = -normal;
         normal = normal.norm() > least_steepness ? normal.normalized() : direction;
-        region.barriers_[static_cast<std::size_t>(i)] = {normal,
-                                                         hit->distance_m * normal.dot(direction)};
+        met[static_cast<std::size_t>(i)] = {normal, hit->distance_m * normal.dot(direction)};
     }
-    if (!any) return std::nullopt;
+    if (!any || !region.knows_patch(shape, centre)) return std::nullopt;
     // A barrier may reach into a sector whose middle passes it by.
-    const auto met = region.barriers_;
+    region.barriers_ = met;
     for (int i = 0; i < sectors; ++i) {
         Barrier& own = region.barriers_[static_cast<std::size_t>(i)];
         for (const int beside : {i + 1, i + sectors - 1}) {
@@ -121,22 +103,25 @@ std::optional<KernelRegion> KernelRegion::within(const Stage& stage, const Surfa
             if (own.distance_m == infinity && other.distance_m < infinity) own = other;
         }
     }
-    // A whole disc, which on a mesh shows that it is flat there.
-    const double disc_m2 = pi * radius_m * radius_m;
-    if (!region.has_outline_ &&
-        std::abs(kernel_area_m2(shape, centre, radius_m) - disc_m2) > 1e-9 * disc_m2) {
-        return std::nullopt;
-    }
     return region;
+}
+
+// Whether the patch is, within the radius, what lies on the inner side of each line of the outline.
+bool KernelRegion::knows_patch(const Shape& shape, const SurfacePoint& centre) const {
+    if (std::holds_alternative<Rectangle>(shape) || std::holds_alternative<Box>(shape)) return true;
+    const double kernel_m2 = kernel_area_m2(shape, centre, radius_m_);
+    const double disc_m2 = pi * radius_m_ * radius_m_;
+    // A whole disc shows that a mesh is flat there. Else the digits of its file decide.
+    if (outline_.empty()) return std::abs(kernel_m2 - disc_m2) <= 1e-9 * disc_m2;
+    return std::abs(kernel_m2 - area_m2(radius_m_)) <= 1e-6 * disc_m2;  // without barriers yet
 }
 
 double KernelRegion::within_outline_m(const Vec2& direction) const {
     double distance_m = infinity;
-    if (!has_outline_) return distance_m;
-    for (std::size_t i = 0; i < 4; ++i) {
-        const Vec2 along = outline_[(i + 1) % 4] - outline_[i];
+    for (const auto& [a, b] : outline_) {
+        const Vec2 along = b - a;
         const Vec2 across(along.y(), -along.x());
-        const double rate = across.dot(direction), offset = across.dot(outline_[i]);
+        const double rate = across.dot(direction), offset = across.dot(a);
         if (rate * offset > 0.0) distance_m = std::min(distance_m, offset / rate);
     }
     // What stands at the edge cuts off nothing.
@@ -183,9 +168,7 @@ double KernelRegion::area_m2(double radius_m) const {
         }
         polygon.push_back(corners[1]);
     }
-    if (has_outline_) {
-        for (std::size_t i = 0; i < 4; ++i) clip(polygon, outline_[i], outline_[(i + 1) % 4]);
-    }
+    for (const auto& [a, b] : outline_) clip(polygon, a, b);
     return polygon.size() < 3 ? 0.0 : std::abs(disc_polygon_area(polygon, radius_m));
 }
 

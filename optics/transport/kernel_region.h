@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <vector>
 
 #include "core/vector.h"
 #include "optics/transport/stage.h"
@@ -17,7 +18,8 @@ namespace lucerna::optics {
 class KernelRegion {
 public:
     /// Nothing if no barrier stands within the radius, and where kernels are not cut by barriers:
-    /// on curved surfaces, and across edges of surfaces other than rectangles and boxes.
+    /// on curved surfaces, and across edges where a surface ends in a curve or in a corner that
+    /// reaches into it.
     /// @param side  unit normal of the plane on the side of the observer.
     static std::optional<KernelRegion> within(const Stage& stage, const SurfacePoint& centre,
                                               const Vec3& side, double radius_m);
@@ -35,14 +37,14 @@ private:
     };
     KernelRegion(const Vec3& centre, const Vec3& side, double radius_m);
     Vec2 local(const Vec3& position) const;
+    bool knows_patch(const Shape& shape, const SurfacePoint& centre) const;
     /// How far the patch reaches from the centre in a direction, if its outline is known [m].
     double within_outline_m(const Vec2& direction) const;
 
     Vec3 centre_, x_axis_, y_axis_;
     double radius_m_;
     std::array<Barrier, sectors> barriers_;
-    std::array<Vec2, 4> outline_{};  // of the patch
-    bool has_outline_ = false;
+    std::vector<std::array<Vec2, 2>> outline_;  // sides of the patch, of a mesh those that are near
 };
 
 }  // namespace lucerna::optics

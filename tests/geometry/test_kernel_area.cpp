@@ -220,4 +220,98 @@ TEST_CASE("A kernel on a finely meshed sphere is a disc but for its curvature", 
     }
 }
 
+namespace {
+
+/// [0, 1] x [0, 1] in steps x steps squares, without those that are left out.
+std::shared_ptr<const Mesh> plate_mesh(std::uint32_t steps,
+                                       const std::function<bool(double x, double y)>& leaves_out,
+                                       const std::function<Vec3(const Vec3&)>& moved) {
+    std::vector<Vec3> vertices;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    for (std::uint32_t i = 0; i <= steps; ++i)
+        for (std::uint32_t j = 0; j <= steps; ++j)
+            vertices.push_back(
+                moved(Vec3(static_cast<double>(i) / steps, static_cast<double>(j) / steps, 0.0)));
+    for (std::uint32_t i = 0; i < steps; ++i)
+        for (std::uint32_t j = 0; j < steps; ++j) {
+            if (leaves_out((i + 0.5) / steps, (j + 0.5) / steps)) continue;
+            const std::uint32_t a = i * (steps + 1) + j;
+            const std::uint32_t b = a + steps + 1;
+            triangles.push_back({a, b, b + 1});
+            triangles.push_back({a, b + 1, a + 1});
+        }
+    return prepare_mesh(vertices, triangles);
+}
+
+bool in_nothing(double, double) {
+    return false;
+}
+
+Vec3 as_it_is(const Vec3& p) {
+    return p;
+}
+
+}  // namespace
+
+TEST_CASE("The outline of a plane patch are its straight sides", "[unit]") {
+    CHECK(box_mesh(Vec3(0.5, 0.8, 0.3))->outlines.of(2).size() == 4);
+    CHECK(plate_mesh(20, in_nothing, as_it_is)->outlines.of(0).size() == 4);
+    // More squares in a row than are joined at once.
+    CHECK(plate_mesh(100, in_nothing, as_it_is)->outlines.of(0).size() == 8);
+    const auto hole = [](double x, double y) {
+        return std::abs(x - 0.5) < 0.1 && std::abs(y - 0.5) < 0.1;
+    };
+    CHECK(plate_mesh(20, hole, as_it_is)->outlines.of(0).size() == 8);
+    const auto corner = [](double x, double y) { return x > 0.5 && y > 0.5; };
+    CHECK(plate_mesh(20, corner, as_it_is)->outlines.of(0).size() == 6);
+
+    // Digits of single precision in a general position leave a plane plane.
+    const auto rounded = [](const Vec3& p) -> Vec3 {
+        return (general_placement() * p).cast<float>().cast<double>();
+    };
+    CHECK(plate_mesh(4, in_nothing, rounded)->outlines.is_plane(0));
+    // A bend by a degree and a bump of a ten-thousandth do not.
+    const auto bent = [](const Vec3& p) -> Vec3 {
+        return {p.x(), p.y(), 0.017 * std::max(0.0, p.x() - 0.5)};
+    };
+    CHECK_FALSE(plate_mesh(4, in_nothing, bent)->outlines.is_plane(0));
+    const auto bump = [](const Vec3& p) -> Vec3 {
+        return {p.x(), p.y(), p.x() == 0.5 && p.y() == 0.5 ? 1e-4 : 0.0};
+    };
+    CHECK_FALSE(plate_mesh(4, in_nothing, bump)->outlines.is_plane(0));
+    CHECK_FALSE(sphere_mesh(0.5, 20, 40)->outlines.is_plane(0));
+}
+
+TEST_CASE("Kernel areas beside holes and corners of a plane mesh", "[unit]") {
+    struct Case {
+        std::string name;
+        std::function<bool(double x, double y)> leaves_out;
+        double low_m, size_m;  // of the square that is left out, along both axes
+    };
+    for (const auto& [name, leaves_out, low_m, size_m] :
+         {Case{
+              "hole",
+              [](double x, double y) { return std::abs(x - 0.5) < 0.1 && std::abs(y - 0.5) < 0.1; },
+              0.4, 0.2},
+          Case{"corner", [](double x, double y) { return x > 0.5 && y > 0.5; }, 0.5, 0.5}}) {
+        const Shape shape = MeshInstance{plate_mesh(20, leaves_out, as_it_is), general_placement()};
+        RandomStream random = test_stream(14);
+        int cut = 0;
+        for (int i = 0; i < 500; ++i) {
+            const double u = random.uniform();
+            const SurfacePoint p = sample_area(shape, u, random.uniform());
+            const double radius_m = 0.4 * random.uniform();
+            const Vec3 on_plate = general_placement().inverse() * p.position;
+            const double x = on_plate.x(), y = on_plate.y();
+            const double left_out_m2 =
+                disc_rectangle_area(x - low_m, y - low_m, size_m, size_m, radius_m);
+            const double truth_m2 = disc_rectangle_area(x, y, 1.0, 1.0, radius_m) - left_out_m2;
+            cut += left_out_m2 > 0.01 * truth_m2 ? 1 : 0;
+            CAPTURE(name, x, y, radius_m);
+            CHECK_THAT(kernel_area_m2(shape, p, radius_m), WithinRel(truth_m2, 1e-9));
+        }
+        CHECK(cut > 100);  // the twin: it mattered
+    }
+}
+
 }  // namespace lucerna::optics

@@ -108,23 +108,101 @@ TEST_CASE("A kernel on a flat part of a mesh ends at the foot", "[analytic]") {
     CHECK_THAT(area_m2(Vec2(0.5, 0.5) + 0.03 * from_block),
                WithinAbs(large_part_m2(0.03, kernel_m), 0.005 * disc_m2));
     CHECK(area_m2({0.2, 0.2}) == 0.0);
-    CHECK(area_m2({0.05, 0.5}) == 0.0);  // across an edge of the mesh, and no barrier
+    CHECK(area_m2({0.05, 0.5}) == 0.0);  // no barrier
 }
 
 TEST_CASE("A kernel ends at the foot and at the edge of the surface", "[analytic]") {
+    const Placement below = Placement(Eigen::Translation3d(0.0, 0.0, -0.1));
+    const Shape plate =
+        GENERATE_COPY(Shape(Rectangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}),
+                      Shape(MeshInstance{test::box_mesh({1.0, 1.0, 0.1}, 1), below}),
+                      Shape(MeshInstance{test::box_mesh({1.0, 1.0, 0.1}, 7), below}));
     SceneBuilder scene;
-    const ObjectId plate =
-        scene.object("plate", Rectangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, scene.diffuse(0.5));
+    scene.object("plate", plate, scene.diffuse(0.5));
     Placement placement = Placement::Identity();
     placement.translate(Vec3(0.5, 0.0, 0.0));
     scene.object("block", Box{placement, {0.2, 1.0, 0.3}}, scene.diffuse(0.5));
     scene.light("light", PointLight{{0, 0, 1}}, 1.0);
-    scene.receiver(plate);
+    scene.receiver(0);
     const Stage stage(scene.parts);
-    const auto region = KernelRegion::within(stage, {{0.4999, 0.0001, 0}, Vec3::UnitZ(), plate},
-                                             Vec3::UnitZ(), kernel_m);
+    const auto hit = stage.caster().intersect({{0.4999, 0.0001, 0.2}, -Vec3::UnitZ()}, nullptr);
+    REQUIRE(hit);
+    const auto region = KernelRegion::within(stage, hit->point, Vec3::UnitZ(), kernel_m);
     REQUIRE(region);
     CHECK_THAT(region->area_m2(kernel_m), WithinRel(disc_m2 / 4.0, 0.005));
+}
+
+TEST_CASE("A kernel runs on where a corner of its mesh reaches into it", "[analytic]") {
+    // The corner of an L at (0.5, 0.5), and a block along its end at y = 0.
+    std::vector<Vec3> vertices{{0, 0, 0},     {0.5, 0, 0}, {1, 0, 0}, {0, 0.5, 0},
+                               {0.5, 0.5, 0}, {1, 0.5, 0}, {0, 1, 0}, {0.5, 1, 0}};
+    SceneBuilder scene;
+    scene.object(
+        "plate",
+        MeshInstance{
+            prepare_mesh(vertices,
+                         {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}, {3, 4, 7}, {3, 7, 6}}),
+            Placement::Identity()},
+        scene.diffuse(0.5));
+    Placement placement = Placement::Identity();
+    placement.translate(Vec3(0.0, 0.42, 0.0));
+    scene.object("block", Box{placement, {0.45, 0.05, 0.3}}, scene.diffuse(0.5));
+    scene.light("light", PointLight{{0, 0, 1}}, 1.0);
+    scene.receiver(0);
+    const Stage stage(scene.parts);
+    const auto region_at = [&](double x, double y) {
+        const auto hit = stage.caster().intersect({{x, y, 0.2}, -Vec3::UnitZ()}, nullptr);
+        REQUIRE(hit);
+        return KernelRegion::within(stage, hit->point, Vec3::UnitZ(), kernel_m);
+    };
+    CHECK_FALSE(region_at(0.48, 0.48));
+    // The twin: beside the same block, and with one side of the corner alone within the radius.
+    CHECK(region_at(0.2, 0.48));
+    const auto beside_side = region_at(0.48, 0.36);
+    REQUIRE(beside_side);
+}
+
+TEST_CASE("A flat mesh with few digits gathers all photons around a point", "[analytic]") {
+    // In a plane where cells of the grid begin, at heights of up to a millionth above and below.
+    constexpr double radius_m = 0.004, six_digits = 1e-6;
+    auto vertices = test::box_mesh({1.0, 1.0, 0.1}, 7)->vertices;
+    const auto triangles = test::box_mesh({1.0, 1.0, 0.1}, 7)->triangles;
+    for (Vec3& vertex : vertices) {
+        // The same for all vertices at a place.
+        vertex.z() += six_digits * std::sin(1e3 * vertex.x() + 2e3 * vertex.y()) - 0.1;
+    }
+    SceneBuilder scene;
+    const BsdfId paint = scene.diffuse(0.5);
+    scene.object("plate", MeshInstance{prepare_mesh(vertices, triangles), Placement::Identity()},
+                 paint);
+    scene.light("light", PointLight{{0, 0, 1}}, 1.0);
+    scene.receiver(0);
+    const Stage stage(scene.parts);
+    const Phase phase(stage, 1, 0);
+    const auto above = [&](double x, double y) {
+        return stage.caster().intersect({{x, y, 0.2}, -Vec3::UnitZ()}, nullptr)->point;
+    };
+    REQUIRE(stage.patch_is_plane(stage.patch_index(above(0.5, 0.5))));
+    std::vector<Photon> photons;
+    for (int i = 0; i < 100; ++i) {
+        for (int j = 0; j < 100; ++j) {
+            photons.push_back({above(0.45 + 0.001 * i, 0.45 + 0.001 * j), -Vec3::UnitZ(),
+                               Lanes::Constant(1.0f), History::indirect});
+        }
+    }
+    const Radii radii(std::vector<double>(stage.patch_count(), radius_m));
+    const ForwardMap map(stage, radii, {&photons, 1}, 1, 1);
+    const Vec3 wo = Vec3::UnitZ();
+    const SurfaceOptics optics = optics_at(phase, no_object, no_object, false, 0);
+    for (int i = 0; i < 40; ++i) {
+        const SurfacePoint point = above(0.47 + 0.00137 * i, 0.52 - 0.00071 * i);
+        const Frame frame(point.normal);
+        const GatherPoint at{point, frame, wo, stage.parts().bsdfs[paint], optics};
+        const auto truth = std::ranges::count_if(photons, [&](const Photon& photon) {
+            return (photon.point.position - point.position).norm() < radius_m;
+        });
+        CHECK(map.gather(phase, radii, at).photons == truth);
+    }
 }
 
 TEST_CASE("Light beside the foot of an object is what it is elsewhere", "[analytic]") {

@@ -45,29 +45,25 @@ BackwardMap::BackwardMap(const Phase& phase, const Radii& radii,
 void BackwardMap::build_grid(int threads) {
     if (photons_.empty()) return;
     bucket_mask_ = std::bit_ceil(4 * photons_.size()) - 1;
+    const Stage& stage = phase_->stage;
     const std::size_t tasks = tasks_for(photons_.size());
     const auto emit = [&](std::size_t task, auto&& put) {
         std::vector<std::size_t> seen;  // of one photon
         const std::size_t end = (task + 1) * photons_.size() / tasks;
         for (std::size_t i = task * photons_.size() / tasks; i < end; ++i) {
-            const Vec3& position = photons_[i].point.position;
-            const std::uint32_t patch = kernel_patch(phase_->stage, photons_[i].point);
+            const SurfacePoint& point = photons_[i].point;
+            const std::uint32_t patch = kernel_patch(stage, point);
             const double radius_m = (*radii_)[patch];
-            const Vec3 reach = Vec3::Constant(radius_m);
-            const CellKey low = CellKey::at(patch, position - reach, cell_per_radius * radius_m);
-            const CellKey high = CellKey::at(patch, position + reach, cell_per_radius * radius_m);
-            const Candidate candidate{position.cast<float>(), static_cast<std::uint32_t>(i)};
+            const Candidate candidate{point.position.cast<float>(), static_cast<std::uint32_t>(i)};
             seen.clear();
-            for (std::int32_t x = low.x; x <= high.x; ++x) {
-                for (std::int32_t y = low.y; y <= high.y; ++y) {
-                    for (std::int32_t z = low.z; z <= high.z; ++z) {
-                        const std::size_t bucket = CellKey{patch, x, y, z}.hash() & bucket_mask_;
-                        if (std::find(seen.begin(), seen.end(), bucket) != seen.end()) continue;
-                        seen.push_back(bucket);
-                        put(bucket, candidate);
-                    }
-                }
-            }
+            PatchCells(patch, cell_per_radius * radius_m)
+                .for_each_around(point.position, radius_m, plane_normal(stage, point),
+                                 off_plane_m(stage, point, radius_m), [&](std::uint64_t hash) {
+                                     const std::size_t bucket = hash & bucket_mask_;
+                                     if (std::ranges::find(seen, bucket) != seen.end()) return;
+                                     seen.push_back(bucket);
+                                     put(bucket, candidate);
+                                 });
         }
     };
     grid_.build<Candidate>(bucket_mask_ + 1, tasks, threads, emit,
@@ -83,8 +79,9 @@ void BackwardMap::for_each_around(const Photon& photon, Use&& use) const {
     // The quick test is in single precision and a little wide; in_kernel() decides.
     const auto square = static_cast<float>(radius_m * radius_m * 1.001);
     const Eigen::Vector3f position = photon.point.position.cast<float>();
-    const CellKey key = CellKey::at(patch, photon.point.position, cell_per_radius * radius_m);
-    for (const Candidate& candidate : grid_.bucket(key.hash() & bucket_mask_)) {
+    const PatchCells cells(patch, cell_per_radius * radius_m);
+    const std::uint64_t hash = cells.hash_at(photon.point.position);
+    for (const Candidate& candidate : grid_.bucket(hash & bucket_mask_)) {
         if ((candidate.position - position).squaredNorm() > square) continue;
         const BackwardPhoton& backward = photons_[candidate.index];
         if (!(backward.accepts & mask(photon.history))) continue;

@@ -14,30 +14,84 @@
 
 namespace lucerna::optics {
 
-/// A cell of the grid of one patch. Comparing it is exact; only the bucket is a hash.
-struct CellKey {
-    std::uint32_t patch;
-    std::int32_t x, y, z;
+/// The cells of the grid of one patch; several may share a hash.
+class PatchCells {
+public:
+    PatchCells(std::uint32_t patch, double cell_m)
+        : hash_of_patch_(patch * 0x9E3779B97F4A7C15ull), cell_m_(cell_m) {}
 
-    bool operator==(const CellKey&) const = default;
-
-    static CellKey at(std::uint32_t patch, const Vec3& position, double cell_m) {
-        const auto index = [&](double coordinate) {
-            return static_cast<std::int32_t>(std::floor(coordinate / cell_m));
-        };
-        return {patch, index(position.x()), index(position.y()), index(position.z())};
-    }
-
-    std::uint64_t hash() const {
-        // Mixing steps of MurmurHash3's finaliser over the packed coordinates.
-        std::uint64_t h = patch * 0x9E3779B97F4A7C15ull;
-        for (const std::int32_t c : {x, y, z}) {
-            h ^= static_cast<std::uint32_t>(c);
-            h *= 0xFF51AFD7ED558CCDull;
-            h ^= h >> 32;
-        }
+    /// Hash of the cell that holds a point.
+    std::uint64_t hash_at(const Vec3& position) const {
+        std::uint64_t h = hash_of_patch_;
+        for (int axis = 0; axis < 3; ++axis) h = mixed(h, index(position[axis]));
         return h;
     }
+
+    /// Calls use(hash) for the cells that an open ball meets.
+    /// @param radius_m  at most that of cells.
+    /// @param normal    nullptr, or that of a plane through the centre: then only for those that
+    ///                  hold points of the ball up to off_plane_m from the plane, and few others.
+    template <typename Use>
+    void for_each_around(const Vec3& centre, double radius_m, const Vec3* normal,
+                         double off_plane_m, const Use& use) const {
+        // Along each axis: the cells, squares of their distances from the centre, and how far their
+        // middles are from it along the normal.
+        struct Along {
+            std::int32_t first;
+            int count = 0;
+            std::array<double, 4> square_m2, off_plane_m;
+        };
+        std::array<Along, 3> along;
+        double half_thickness_m = off_plane_m;
+        for (int axis = 0; axis < 3; ++axis) {
+            Along& of = along[static_cast<std::size_t>(axis)];
+            const double n = normal ? (*normal)[axis] : 0.0;
+            half_thickness_m += 0.5001 * cell_m_ * std::abs(n);
+            of.first = index(centre[axis] - radius_m);
+            const std::int32_t last = index(centre[axis] + radius_m);
+            for (; of.first + of.count <= last && of.count < 4; ++of.count) {
+                const double low_m = cell_m_ * (of.first + of.count - begin) - centre[axis];
+                const auto i = static_cast<std::size_t>(of.count);
+                of.square_m2[i] = square(std::max({low_m, -low_m - cell_m_, 0.0}));
+                of.off_plane_m[i] = n * (low_m + 0.5 * cell_m_);
+            }
+        }
+        const auto& [x, y, z] = along;
+        const double square_m2 = (1.0 + 1e-9) * square(radius_m);
+        for (std::size_t i = 0; i < static_cast<std::size_t>(x.count); ++i) {
+            const std::uint64_t of_x = mixed(hash_of_patch_, x.first + static_cast<int>(i));
+            for (std::size_t j = 0; j < static_cast<std::size_t>(y.count); ++j) {
+                const double in_xy_m2 = x.square_m2[i] + y.square_m2[j];
+                if (in_xy_m2 >= square_m2) continue;
+                const double off_xy_m = x.off_plane_m[i] + y.off_plane_m[j];
+                const std::uint64_t of_xy = mixed(of_x, y.first + static_cast<int>(j));
+                for (std::size_t k = 0; k < static_cast<std::size_t>(z.count); ++k) {
+                    if (in_xy_m2 + z.square_m2[k] >= square_m2) continue;
+                    if (normal && std::abs(off_xy_m + z.off_plane_m[k]) > half_thickness_m) {
+                        continue;
+                    }
+                    use(mixed(of_xy, z.first + static_cast<int>(k)));
+                }
+            }
+        }
+    }
+
+private:
+    // The grid begins off the origin: planes at 0 are common, and would lie between cells.
+    static constexpr double begin = 0.37;
+
+    std::int32_t index(double coordinate) const {
+        return static_cast<std::int32_t>(std::floor(coordinate / cell_m_ + begin));
+    }
+    // Mixing steps of MurmurHash3's finaliser over the packed coordinates.
+    static std::uint64_t mixed(std::uint64_t h, std::int32_t c) {
+        h ^= static_cast<std::uint32_t>(c);
+        h *= 0xFF51AFD7ED558CCDull;
+        return h ^ (h >> 32);
+    }
+
+    std::uint64_t hash_of_patch_;
+    double cell_m_;
 };
 
 /// Tasks that put items into a table: enough for many threads, none for very few items.

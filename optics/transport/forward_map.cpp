@@ -62,6 +62,17 @@ bool in_kernel(const Stage& stage, const SurfacePoint& p, const SurfacePoint& q,
            within_kernel(stage.parts().objects[p.object].shape, p, q, radius_m);
 }
 
+const Vec3* plane_normal(const Stage& stage, const SurfacePoint& p) {
+    const bool plane = p.object == no_object || stage.patch_is_plane(stage.patch_index(p));
+    return plane ? &p.normal : nullptr;
+}
+
+double off_plane_m(const Stage& stage, const SurfacePoint& p, double radius_m) {
+    const double of_shape_m =
+        p.object == no_object ? 0.0 : off_plane_m(stage.parts().objects[p.object].shape, radius_m);
+    return of_shape_m + stage.nudge_m();
+}
+
 KernelAreas kernel_areas(const Stage& stage, const SurfacePoint& p, double radius_m) {
     const double disc = pi * radius_m * radius_m;
     if (p.object == no_object) return {disc, disc / 2.0};
@@ -118,18 +129,18 @@ ForwardMap::ForwardMap(const Stage& stage, const Radii& radii,
             for (; i < std::min(end, starts[list]); ++i) {
                 const Photon& photon = photons[list - 1][i - starts[list - 1]];
                 const std::uint32_t patch = kernel_patch(stage, photon.point);
-                const CellKey cell = CellKey::at(patch, photon.point.position, radii[patch]);
-                put(cell.hash() & bucket_mask_, &photon);
+                const PatchCells cells(patch, radii[patch]);
+                put(cells.hash_at(photon.point.position) & bucket_mask_, &photon);
             }
         }
     };
     const auto place = [&](std::size_t i, const Photon* photon) {
         fluxes_.construct(i, photon->flux);
-        arrivals_.construct(
-            i, {photon->point, photon->direction, photon->light, photon->on_common_lane});
+        arrivals_.construct(i, {photon->point, photon->direction, photon->light});
         return Candidate{photon->point.position.cast<float>(),
                          Candidate::key_of(kernel_patch(stage, photon->point),
-                                           photon->direction.dot(photon->point.normal) < 0.0)};
+                                           photon->direction.dot(photon->point.normal) < 0.0,
+                                           photon->on_common_lane)};
     };
     grid_.build<const Photon*>(bucket_mask_ + 1, tasks, threads, emit, place);
 }
@@ -137,31 +148,17 @@ ForwardMap::ForwardMap(const Stage& stage, const Radii& radii,
 // The buckets of all cells that the kernel meets.
 ForwardMap::Buckets ForwardMap::buckets_around(const Stage& stage, const GatherPoint& at,
                                                double cell_m, double radius_m) const {
-    const Vec3& centre = at.point.position;
     const std::uint32_t patch = kernel_patch(stage, at.point);
-    const bool on_sensor = at.point.object == no_object;
-    const bool plane = on_sensor || stage.patch_is_plane(patch);
-    const Vec3 reach = Vec3::Constant(radius_m);
-    const CellKey low = CellKey::at(patch, centre - reach, cell_m);
-    const CellKey high = CellKey::at(patch, centre + reach, cell_m);
-    // A plane meets the cells whose centres are no further from it than this.
-    const Vec3& normal = at.point.normal;
-    const double off_plane_m =
-        on_sensor ? 0.0 : optics::off_plane_m(stage.parts().objects[at.point.object].shape, cell_m);
-    const double thickness_m = 0.5001 * cell_m * normal.lpNorm<1>() + off_plane_m + stage.nudge_m();
     Buckets buckets;
-    for (std::int32_t x = low.x; x <= high.x; ++x) {
-        for (std::int32_t y = low.y; y <= high.y; ++y) {
-            for (std::int32_t z = low.z; z <= high.z; ++z) {
-                const Vec3 middle = cell_m * Vec3(x + 0.5, y + 0.5, z + 0.5);
-                if (plane && std::abs(normal.dot(middle - centre)) > thickness_m) continue;
-                const std::size_t bucket = CellKey{patch, x, y, z}.hash() & bucket_mask_;
-                const auto begin = buckets.numbers.begin();
-                const auto end = begin + static_cast<std::ptrdiff_t>(buckets.count);
-                if (std::find(begin, end, bucket) == end) buckets.numbers[buckets.count++] = bucket;
-            }
-        }
-    }
+    PatchCells(patch, cell_m)
+        .for_each_around(at.point.position, radius_m, plane_normal(stage, at.point),
+                         off_plane_m(stage, at.point, radius_m), [&](std::uint64_t hash) {
+                             const std::size_t bucket = hash & bucket_mask_;
+                             const auto begin = buckets.numbers.begin();
+                             const auto end = begin + static_cast<std::ptrdiff_t>(buckets.count);
+                             if (std::find(begin, end, bucket) != end) return;
+                             buckets.numbers[buckets.count++] = bucket;
+                         });
     return buckets;
 }
 
@@ -213,14 +210,15 @@ void ForwardMap::for_each_in_kernel(const Stage& stage, const GatherPoint& at, d
     }
 }
 
-// Adds the flux on one side of a whole flat disc, by places in single precision. Returns the number
-// of photons.
-std::uint32_t ForwardMap::add_flat_disc(const Buckets& buckets, std::uint32_t patch, bool above,
-                                        const Vec3& centre, double radius_m,
-                                        KernelSums& sums) const {
-    const Eigen::Vector3f middle = centre.cast<float>();
+// Adds the flux on one side of a surface where distances are straight, by places in single
+// precision. Returns the number of photons.
+// @param key  that of photons on this side without the common hero.
+std::uint32_t ForwardMap::add_by_place(const GatherPoint& at, const Buckets& buckets,
+                                       std::uint32_t key, double radius_m, bool flat_disc,
+                                       KernelSums& sums) const {
+    const Eigen::Vector3f middle = at.point.position.cast<float>();
     const auto per_square_radius = static_cast<float>(1.0 / square(radius_m));
-    const std::uint32_t key = Candidate::key_of(patch, above);
+    constexpr auto inner_square = static_cast<float>(inner_radius_factor * inner_radius_factor);
     constexpr std::size_t most = 64;
     std::array<float, most> place;  // square of the distance from the centre in radii
     std::array<float, most> weight;
@@ -235,8 +233,14 @@ std::uint32_t ForwardMap::add_flat_disc(const Buckets& buckets, std::uint32_t pa
             for (std::size_t k = 0; k < count; ++k) {
                 const Candidate& candidate = candidates[k];
                 const float s = per_square_radius * (candidate.position - middle).squaredNorm();
-                place[k] = candidate.key == key ? s : 1.0f;
+                const bool here = (candidate.key & ~Candidate::common_bit) == key;
+                place[k] = here ? s : 1.0f;
                 weight[k] = narrow_weight(s);
+            }
+            if (!flat_disc) {
+                for (std::size_t k = 0; k < count; ++k) {
+                    weight[k] = place[k] < inner_square ? 1.0f : 0.0f;
+                }
             }
             // Without a branch for each: which ones are near cannot be foreseen.
             std::size_t found = 0;
@@ -244,9 +248,18 @@ std::uint32_t ForwardMap::add_flat_disc(const Buckets& buckets, std::uint32_t pa
                 near[found] = static_cast<std::uint32_t>(k);
                 found += place[k] < 1.0f ? 1 : 0;
             }
+            if (at.region) {
+                const auto outside = [&](std::uint32_t k) {
+                    return !at.region->holds(candidates[k].position.cast<double>());
+                };
+                const auto end = near.begin() + static_cast<std::ptrdiff_t>(found);
+                found = static_cast<std::size_t>(std::remove_if(near.begin(), end, outside) -
+                                                 near.begin());
+            }
             const Lanes* fluxes = fluxes_.data() + start + first;
             for (std::size_t k = 0; k < found; ++k) {
-                const Lanes& flux = fluxes[near[k]];
+                const bool halved = at.optics.hero_only && candidates[near[k]].on_common_lane();
+                const Lanes flux = (halved ? weight_of_common_heroes : 1.0f) * fluxes[near[k]];
                 sums.full += flux;
                 sums.narrow += weight[near[k]] * flux;
             }
@@ -266,9 +279,10 @@ Gathered ForwardMap::gather(const Phase& phase, const Radii& radii, const Gather
     const auto scattered = [&](const Vec3& wi) {
         return evaluate(at.bsdf, at.optics, at.wo, wi, Transport::radiance);
     };
-    const auto add = [&](KernelLight& to, const Lanes& flux, std::size_t photon, double weight) {
+    const auto add = [&](KernelLight& to, const Lanes& flux, const Candidate& candidate,
+                         std::size_t photon, double weight) {
         ++to.photons;
-        const bool halved = at.optics.hero_only && arrivals_[photon].on_common_lane;
+        const bool halved = at.optics.hero_only && candidate.on_common_lane();
         const Lanes part = halved ? Lanes(flux * weight_of_common_heroes) : flux;
         to.full += part;
         to.narrow += static_cast<float>(weight) * part;
@@ -281,34 +295,33 @@ Gathered ForwardMap::gather(const Phase& phase, const Radii& radii, const Gather
         const Lanes from_above = scattered(Vec3::UnitZ()), from_below = scattered(-Vec3::UnitZ());
         KernelLight above, below;
         // Single precision tells places to 6e-8 of the coordinates.
-        const bool quick = areas.flat_disc && !tells_steps && !at.region && !at.but_of &&
-                           !at.optics.hero_only &&
+        const bool quick = is_straight(stage, at.point) && !tells_steps && !at.but_of &&
                            radius_m > 1e-4 * at.point.position.cwiseAbs().maxCoeff();
         if (quick) {
             const std::uint32_t patch = kernel_patch(stage, at.point);
             const Buckets buckets = buckets_around(stage, at, cell_m, radius_m);
             const auto side = [&](bool is_above, KernelLight& to) {
-                to.photons =
-                    add_flat_disc(buckets, patch, is_above, at.point.position, radius_m, to);
+                to.photons = add_by_place(at, buckets, Candidate::key_of(patch, is_above, false),
+                                          radius_m, areas.flat_disc, to);
             };
             if (at.from_above && (from_above != 0.0f).any()) side(true, above);
             if (at.from_below && (from_below != 0.0f).any()) side(false, below);
         } else {
             for_each_in_kernel(stage, at, cell_m, radius_m, areas.flat_disc,
                                [&](const Candidate& candidate, std::size_t photon, double weight) {
-                                   add(candidate.above() ? above : below, fluxes_[photon], photon,
-                                       weight);
+                                   add(candidate.above() ? above : below, fluxes_[photon],
+                                       candidate, photon, weight);
                                });
         }
         sum.add_scattered(above, from_above);
         sum.add_scattered(below, from_below);
     } else {
         for_each_in_kernel(stage, at, cell_m, radius_m, areas.flat_disc,
-                           [&](const Candidate&, std::size_t photon, double weight) {
+                           [&](const Candidate& candidate, std::size_t photon, double weight) {
                                const Arrival& arrival = arrivals_[photon];
                                const Vec3 wi = kernel_direction(at.frame, arrival.point.normal,
                                                                 arrival.direction);
-                               add(sum, fluxes_[photon] * scattered(wi), photon, weight);
+                               add(sum, fluxes_[photon] * scattered(wi), candidate, photon, weight);
                            });
     }
     if (sum.photons == 0) return {};

@@ -21,6 +21,11 @@ inline std::uint32_t kernel_patch(const Stage& stage, const SurfacePoint& p) {
 /// True if q lies in the kernel of p; both have the same kernel patch.
 bool in_kernel(const Stage& stage, const SurfacePoint& p, const SurfacePoint& q, double radius_m);
 
+/// The normal of p if its patch is plane, else nullptr; and how far from that plane points of the
+/// patch may lie that are closer than the radius [m].
+const Vec3* plane_normal(const Stage& stage, const SurfacePoint& p);
+double off_plane_m(const Stage& stage, const SurfacePoint& p, double radius_m);
+
 /// Areas over which the kernel of p collects, and its narrow one: that within the inner radius, or
 /// in a flat disc the integral of its weights, which is the whole area [m2].
 struct KernelAreas {
@@ -137,11 +142,14 @@ private:
         Eigen::Vector3f position;
         std::uint32_t key;
 
-        /// @param above  whether it arrives on the side of the normal.
-        static std::uint32_t key_of(std::uint32_t patch, bool above) {
-            return 2 * patch + (above ? 1 : 0);
+        static constexpr std::uint32_t common_bit = 2;
+        /// @param above   whether it arrives on the side of the normal.
+        /// @param common  whether its path has the common hero.
+        static std::uint32_t key_of(std::uint32_t patch, bool above, bool common) {
+            return 4 * patch + (common ? common_bit : 0) + (above ? 1 : 0);
         }
-        std::uint32_t patch() const { return key / 2; }
+        std::uint32_t patch() const { return key / 4; }
+        bool on_common_lane() const { return (key & common_bit) != 0; }
         bool above() const { return key % 2 == 1; }
     };
     // What is looked at of a photon only where the surface is not plain or not diffuse.
@@ -149,7 +157,6 @@ private:
         SurfacePoint point;
         Vec3 direction;
         std::uint32_t light;
-        bool on_common_lane;
     };
     struct Buckets {
         std::array<std::size_t, 64> numbers;
@@ -160,8 +167,8 @@ private:
     template <typename Use>
     void for_each_in_kernel(const Stage& stage, const GatherPoint& at, double cell_m,
                             double radius_m, bool flat_disc, const Use& use) const;
-    std::uint32_t add_flat_disc(const Buckets& buckets, std::uint32_t patch, bool above,
-                                const Vec3& centre, double radius_m, KernelSums& sums) const;
+    std::uint32_t add_by_place(const GatherPoint& at, const Buckets& buckets, std::uint32_t key,
+                               double radius_m, bool flat_disc, KernelSums& sums) const;
 
     BucketTable<Candidate> grid_;  // cell size: the patch's radius
     std::size_t bucket_mask_ = 0;

@@ -127,6 +127,58 @@ TEST_CASE("Whole discs gather alike where places are told in single precision", 
     CHECK_THAT(of_white(through.bias), WithinAbs(0.75 * of_white(quick.bias), 2.4e-3));
 }
 
+TEST_CASE("Kernels at edges, barriers and of heroes gather alike by places in single precision",
+          "[unit]") {
+    validation::SceneBuilder scene;
+    const BsdfId paint = scene.diffuse(0.5);
+    const ObjectId plate = scene.object("plate", Rectangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, paint);
+    scene.object("wall", Rectangle{{0.5, 0, 0}, {0, 1, 0}, {0, 0, 1}}, paint);
+    scene.light("light", PointLight{{0, 0, 1}}, 1.0);
+    scene.receiver(plate);
+    const Stage stage(scene.parts);
+    const Phase phase(stage, 1, 0);
+    std::vector<Photon> photons;
+    RandomStream random(1, 0, RandomPurpose::test, 0);
+    for (int i = 0; i < 200000; ++i) {
+        const double x = random.uniform();
+        const Vec3 position(x, random.uniform(), 0.0);
+        photons.push_back({{position, Vec3::UnitZ(), plate},
+                           -Vec3::UnitZ(),
+                           Lanes::Constant(static_cast<float>(random.uniform())),
+                           History::caustic,
+                           i % 3 == 0});
+    }
+    const Radii radii(std::vector<double>(stage.patch_count(), kernel_radius_m));
+    const ForwardMap map(stage, radii, {&photons, 1}, 1000, 1);
+    // No light is left out, but then each photon is looked at by itself.
+    const std::vector<bool> none(1, false);
+    const auto gathered = [&](const Vec3& position, bool hero_only, const std::vector<bool>* but) {
+        const SurfacePoint point{position, Vec3::UnitZ(), plate};
+        const auto region = KernelRegion::within(stage, point, Vec3::UnitZ(), kernel_radius_m);
+        const Frame frame(point.normal);
+        const Vec3 wo = Vec3::UnitZ();
+        const SurfaceOptics optics = optics_at(phase, no_object, no_object, hero_only, 0);
+        GatherPoint at{point, frame, wo, stage.parts().bsdfs[paint], optics};
+        at.region = region ? &*region : nullptr;
+        at.but_of = but;
+        return map.gather(phase, radii, at);
+    };
+    for (const bool hero_only : {false, true}) {
+        for (const Vec3& position :
+             {Vec3(0.03, 0.2, 0.0), Vec3(0.45, 0.4, 0.0), Vec3(0.52, 0.97, 0.0)}) {
+            INFO(position.transpose() << (hero_only ? ", hero" : ""));
+            const Gathered quick = gathered(position, hero_only, nullptr);
+            const Gathered exact = gathered(position, hero_only, &none);
+            CHECK(quick.photons == exact.photons);
+            // Sums in another order.
+            CHECK_THAT(of_white(quick.radiance), WithinRel(of_white(exact.radiance), 1e-5));
+            CHECK_THAT(of_white(quick.bias),
+                       WithinAbs(of_white(exact.bias), 1e-5 * of_white(exact.radiance)));
+            CHECK(quick.photons > 500);
+        }
+    }
+}
+
 TEST_CASE("What photons make a kernel's bias vary by", "[analytic]") {
     // Photons at even steps of s = d^2 / r^2 fill a disc evenly.
     constexpr int steps = 10000;

@@ -56,18 +56,18 @@ void add_seen(const Phase& phase, const TraceContext& context, const Settings& s
 
 void add_illuminance_points(const TraceContext& context, SeenPoints& seen) {
     for (std::uint32_t plane = 0; plane < context.planes.count(); ++plane) {
+        const Vec3& normal = context.planes.normal_of(plane);
         for (const SensorPlanes::Point& point : context.planes.points_of(plane)) {
-            seen.vertices.push_back(
-                {.point = {point.position, Vec3::UnitZ(), no_object, plane, plane},
-                 .wo = Vec3::UnitZ(),
-                 .throughput = Lanes::Ones(),
-                 .bsdf = context.stage.white_diffuser(),
-                 .medium_above = no_object,
-                 .medium_below = no_object,
-                 .bin = point.index,
-                 .accepts = all_light,
-                 .hero_only = false,
-                 .hero = 0});
+            seen.vertices.push_back({.point = {point.position, normal, no_object, plane, plane},
+                                     .wo = Vec3::UnitZ(),
+                                     .throughput = Lanes::Ones(),
+                                     .bsdf = context.stage.white_diffuser(),
+                                     .medium_above = no_object,
+                                     .medium_below = no_object,
+                                     .bin = point.index,
+                                     .accepts = all_light,
+                                     .hero_only = false,
+                                     .hero = 0});
             seen.targets.push_back(seen.target_count());
             seen.of_images.push_back(false);
         }

@@ -47,6 +47,7 @@ public:
         return points_[observer][number];
     }
     std::uint32_t point_count() const { return point_count_; }
+    const Vec3& normal_of(std::uint32_t plane) const { return planes_[plane].normal; }
     /// All points of a plane.
     std::vector<Point> points_of(std::uint32_t plane) const;
 

@@ -16,7 +16,7 @@ constexpr double relative_tolerance = 2e-6;
 // The same for sides that count as one, so that areas keep five digits of kernels a thousandth of
 // the mesh.
 constexpr double relative_tolerance_of_sides = 1e-8;
-// Sides joined to one, so that the search for straight runs stays linear.
+// Sides joined to one at a time, so that the search for straight runs stays linear.
 constexpr std::size_t most_joined = 64;
 
 double size_m(const Mesh& mesh) {
@@ -129,6 +129,22 @@ void turn_to_corner(const Mesh& mesh, std::vector<std::uint32_t>& chain, double 
     chain.push_back(chain.front());
 }
 
+// Leaves out points between others on straight lines; true if there were any.
+bool join_straight_runs(const Mesh& mesh, std::vector<std::uint32_t>& chain, double tolerance_m) {
+    std::vector<std::uint32_t> joined{chain.front()};
+    for (std::size_t i = 0, end; i + 1 < chain.size(); i = end) {
+        end = i + 1;
+        while (end + 1 < chain.size() && end - i < most_joined &&
+               is_straight(mesh, std::span(chain).subspan(i, end + 2 - i), tolerance_m)) {
+            ++end;
+        }
+        joined.push_back(chain[end]);
+    }
+    const bool fewer = joined.size() < chain.size();
+    chain = std::move(joined);
+    return fewer;
+}
+
 }  // namespace
 
 MeshOutlines::MeshOutlines(const Mesh& mesh, const std::vector<std::uint32_t>& welded) {
@@ -147,24 +163,16 @@ MeshOutlines::MeshOutlines(const Mesh& mesh, const std::vector<std::uint32_t>& w
         if (plane[patch]) {
             for (auto& chain : chains_of(sides_around(mesh, welded, {begin, end}))) {
                 turn_to_corner(mesh, chain, straight_m);
-                add_straight_runs(mesh, chain, straight_m);
+                while (join_straight_runs(mesh, chain, straight_m)) {
+                }
+                for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+                    sides_.push_back({chain[i], chain[i + 1]});
+                }
             }
         }
         starts_[patch + 1] = sides_.size();
     }
     sides_.shrink_to_fit();
-}
-
-void MeshOutlines::add_straight_runs(const Mesh& mesh, std::span<const std::uint32_t> chain,
-                                     double tolerance_m) {
-    for (std::size_t i = 0, end; i + 1 < chain.size(); i = end) {
-        end = i + 1;
-        while (end + 1 < chain.size() && end - i < most_joined &&
-               is_straight(mesh, chain.subspan(i, end + 2 - i), tolerance_m)) {
-            ++end;
-        }
-        sides_.push_back({chain[i], chain[end]});
-    }
 }
 
 double plane_area_in_ball_m2(const Mesh& mesh, std::uint32_t triangle, const Vec3& centre,

@@ -35,10 +35,6 @@ public:
     static constexpr double tilt_rad = 1e-4;
 
 private:
-    /// @param chain  of vertices
-    void add_straight_runs(const Mesh& mesh, std::span<const std::uint32_t> chain,
-                           double tolerance_m);
-
     std::vector<Side> sides_;
     std::vector<std::size_t> starts_;  // one more than patches
     double tolerance_m_ = 0.0;

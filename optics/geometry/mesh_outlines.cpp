@@ -73,7 +73,8 @@ bool is_straight(const Mesh& mesh, std::span<const std::uint32_t> row, double to
     return true;
 }
 
-// The sides of triangles of a patch that no other of them has the other way round.
+// The sides of triangles of a patch that no other of them has the other way round; none if the
+// patch lies on itself.
 std::vector<MeshOutlines::Side> sides_around(const Mesh& mesh,
                                              const std::vector<std::uint32_t>& welded,
                                              std::span<const std::uint32_t> triangles) {
@@ -86,6 +87,7 @@ std::vector<MeshOutlines::Side> sides_around(const Mesh& mesh,
     }
     std::ranges::sort(all);
     std::vector<MeshOutlines::Side> around;
+    if (std::ranges::adjacent_find(all) != all.end()) return around;
     for (const MeshOutlines::Side& side : all) {
         const MeshOutlines::Side back{side[1], side[0]};
         if (!std::ranges::binary_search(all, back)) around.push_back(side);

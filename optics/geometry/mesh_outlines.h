@@ -13,7 +13,8 @@ namespace lucerna::optics {
 struct Mesh;
 
 /// A patch is plane if its triangles are but for the digits that a file keeps. Its outline are the
-/// sides of triangles around it and around its holes, straight runs of them joined.
+/// sides of triangles around it and around its holes, straight runs of them joined. A patch that
+/// lies on itself does not count as plane.
 class MeshOutlines {
 public:
     /// Vertices of the mesh. As the normal points to the reader, the patch lies on the left.

@@ -52,18 +52,16 @@ void BackwardMap::build_grid(int threads) {
         const std::size_t end = (task + 1) * photons_.size() / tasks;
         for (std::size_t i = task * photons_.size() / tasks; i < end; ++i) {
             const SurfacePoint& point = photons_[i].point;
-            const std::uint32_t patch = kernel_patch(stage, point);
-            const double radius_m = (*radii_)[patch];
+            const double radius_m = (*radii_)[kernel_patch(stage, point)];
             const Candidate candidate{point.position.cast<float>(), static_cast<std::uint32_t>(i)};
             seen.clear();
-            PatchCells(patch, cell_per_radius * radius_m)
-                .for_each_around(point.position, radius_m, plane_normal(stage, point),
-                                 off_plane_m(stage, point, radius_m), [&](std::uint64_t hash) {
-                                     const std::size_t bucket = hash & bucket_mask_;
-                                     if (std::ranges::find(seen, bucket) != seen.end()) return;
-                                     seen.push_back(bucket);
-                                     put(bucket, candidate);
-                                 });
+            for_each_cell_of_kernel(stage, point, cell_per_radius * radius_m, radius_m,
+                                    [&](std::uint64_t hash) {
+                                        const std::size_t bucket = hash & bucket_mask_;
+                                        if (std::ranges::find(seen, bucket) != seen.end()) return;
+                                        seen.push_back(bucket);
+                                        put(bucket, candidate);
+                                    });
         }
     };
     grid_.build<Candidate>(bucket_mask_ + 1, tasks, threads, emit,

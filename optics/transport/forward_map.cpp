@@ -62,17 +62,6 @@ bool in_kernel(const Stage& stage, const SurfacePoint& p, const SurfacePoint& q,
            within_kernel(stage.parts().objects[p.object].shape, p, q, radius_m);
 }
 
-const Vec3* plane_normal(const Stage& stage, const SurfacePoint& p) {
-    const bool plane = p.object == no_object || stage.patch_is_plane(stage.patch_index(p));
-    return plane ? &p.normal : nullptr;
-}
-
-double off_plane_m(const Stage& stage, const SurfacePoint& p, double radius_m) {
-    const double of_shape_m =
-        p.object == no_object ? 0.0 : off_plane_m(stage.parts().objects[p.object].shape, radius_m);
-    return of_shape_m + stage.nudge_m();
-}
-
 KernelAreas kernel_areas(const Stage& stage, const SurfacePoint& p, double radius_m) {
     const double disc = pi * radius_m * radius_m;
     if (p.object == no_object) return {disc, disc / 2.0};
@@ -148,17 +137,13 @@ ForwardMap::ForwardMap(const Stage& stage, const Radii& radii,
 // The buckets of all cells that the kernel meets.
 ForwardMap::Buckets ForwardMap::buckets_around(const Stage& stage, const GatherPoint& at,
                                                double cell_m, double radius_m) const {
-    const std::uint32_t patch = kernel_patch(stage, at.point);
     Buckets buckets;
-    PatchCells(patch, cell_m)
-        .for_each_around(at.point.position, radius_m, plane_normal(stage, at.point),
-                         off_plane_m(stage, at.point, radius_m), [&](std::uint64_t hash) {
-                             const std::size_t bucket = hash & bucket_mask_;
-                             const auto begin = buckets.numbers.begin();
-                             const auto end = begin + static_cast<std::ptrdiff_t>(buckets.count);
-                             if (std::find(begin, end, bucket) != end) return;
-                             buckets.numbers[buckets.count++] = bucket;
-                         });
+    for_each_cell_of_kernel(stage, at.point, cell_m, radius_m, [&](std::uint64_t hash) {
+        const std::size_t bucket = hash & bucket_mask_;
+        const auto begin = buckets.numbers.begin();
+        const auto end = begin + static_cast<std::ptrdiff_t>(buckets.count);
+        if (std::find(begin, end, bucket) == end) buckets.numbers[buckets.count++] = bucket;
+    });
     return buckets;
 }
 

@@ -21,10 +21,19 @@ inline std::uint32_t kernel_patch(const Stage& stage, const SurfacePoint& p) {
 /// True if q lies in the kernel of p; both have the same kernel patch.
 bool in_kernel(const Stage& stage, const SurfacePoint& p, const SurfacePoint& q, double radius_m);
 
-/// The normal of p if its patch is plane, else nullptr; and how far from that plane points of the
-/// patch may lie that are closer than the radius [m].
-const Vec3* plane_normal(const Stage& stage, const SurfacePoint& p);
-double off_plane_m(const Stage& stage, const SurfacePoint& p, double radius_m);
+/// Calls use(hash) for the cells of the grid of its kernel patch that the kernel of p meets.
+/// @param radius_m  at most that of cells.
+template <typename Use>
+void for_each_cell_of_kernel(const Stage& stage, const SurfacePoint& p, double cell_m,
+                             double radius_m, const Use& use) {
+    const bool on_sensor = p.object == no_object;
+    const bool plane = on_sensor || stage.patch_is_plane(stage.patch_index(p));
+    const double off_plane_m =
+        on_sensor ? 0.0 : optics::off_plane_m(stage.parts().objects[p.object].shape, radius_m);
+    PatchCells(kernel_patch(stage, p), cell_m)
+        .for_each_around(p.position, radius_m, plane ? &p.normal : nullptr,
+                         off_plane_m + stage.nudge_m(), use);
+}
 
 /// Areas over which the kernel of p collects, and its narrow one: that within the inner radius, or
 /// in a flat disc the integral of its weights, which is the whole area [m2].

@@ -280,6 +280,15 @@ TEST_CASE("The outline of a plane patch are its straight sides", "[unit]") {
     };
     CHECK_FALSE(plate_mesh(4, in_nothing, bump)->outlines.is_plane(0));
     CHECK_FALSE(sphere_mesh(0.5, 20, 40)->outlines.is_plane(0));
+    // Nor a triangle twice, joined by what is around it.
+    const auto twice = prepare_mesh({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {1, 0, 0}},
+                                    {{0, 1, 2}, {0, 2, 3}, {0, 4, 2}});
+    for (std::uint32_t patch = 0; patch < twice->patch_areas_m2.size(); ++patch) {
+        const Shape shape = MeshInstance{twice, Placement::Identity()};
+        SurfacePoint p{.position = Vec3(0.5, 0.5, 0.0), .normal = Vec3::UnitZ(), .patch = patch};
+        while (twice->patches[p.primitive] != patch) ++p.primitive;
+        CHECK_THAT(kernel_area_m2(shape, p, 9.0), WithinRel(twice->patch_areas_m2[patch], 1e-12));
+    }
 }
 
 TEST_CASE("Kernel areas beside holes and corners of a plane mesh", "[unit]") {

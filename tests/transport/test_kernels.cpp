@@ -179,6 +179,36 @@ TEST_CASE("Kernels at edges, barriers and of heroes gather alike by places in si
     }
 }
 
+TEST_CASE("Cells around a point hold all points of its ball, or of a plane through it", "[unit]") {
+    constexpr double cell_m = 0.3;
+    RandomStream random(2, 0, RandomPurpose::test, 0);
+    const auto in_cube = [&](double half_m) -> Vec3 {
+        const double x = random.uniform(), y = random.uniform();
+        return half_m * (2.0 * Vec3(x, y, random.uniform()) - Vec3::Ones());
+    };
+    const PatchCells cells(3, cell_m);
+    std::size_t of_balls = 0, of_planes = 0;
+    for (int i = 0; i < 300; ++i) {
+        const Vec3 centre = in_cube(5.0), normal = in_cube(1.0).normalized();
+        const double radius_m = cell_m * random.uniform();
+        std::vector<std::uint64_t> around, along_plane;
+        cells.for_each_around(centre, radius_m, nullptr, 0.0,
+                              [&](std::uint64_t hash) { around.push_back(hash); });
+        cells.for_each_around(centre, radius_m, &normal, 0.0,
+                              [&](std::uint64_t hash) { along_plane.push_back(hash); });
+        of_balls += around.size();
+        of_planes += along_plane.size();
+        for (int k = 0; k < 200; ++k) {
+            const Vec3 offset = in_cube(radius_m);
+            if (offset.norm() >= radius_m) continue;
+            const Vec3 in_plane = offset - offset.dot(normal) * normal;
+            CHECK(std::ranges::count(around, cells.hash_at(centre + offset)) == 1);
+            CHECK(std::ranges::count(along_plane, cells.hash_at(centre + in_plane)) == 1);
+        }
+    }
+    CHECK(of_planes < of_balls);  // the twin: some are left out
+}
+
 TEST_CASE("What photons make a kernel's bias vary by", "[analytic]") {
     // Photons at even steps of s = d^2 / r^2 fill a disc evenly.
     constexpr int steps = 10000;

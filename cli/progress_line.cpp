@@ -23,9 +23,11 @@ std::string progress_text(const optics::Progress& progress) {
             text += fmt::format(" of {:.2g} % wanted", 100.0 * *progress.delta_wanted);
     }
     const optics::Furthest& furthest = progress.furthest;
-    if (!furthest.reading.empty() && std::isfinite(furthest.excess)) {
-        text +=
-            fmt::format(", U of {} {:.2g} times what is wanted", furthest.reading, furthest.excess);
+    if (!furthest.reading.empty()) {
+        text += std::isfinite(furthest.excess)
+                    ? fmt::format(", U of {} {:.2g} times what is wanted", furthest.reading,
+                                  furthest.excess)
+                    : fmt::format(", nothing known of {} yet", furthest.reading);
     }
     text += fmt::format(", {:.2f} M rays/s, {}", progress.rays_per_s * 1e-6,
                         duration_text(progress.elapsed_s));

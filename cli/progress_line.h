@@ -8,7 +8,7 @@
 namespace lucerna::cli {
 
 /// "phase 12, noise 3.1 % of 2 % wanted, 4.2 M rays/s, 12 s, 20 s left", and "U of desk[3,1] 1.4
-/// times what is wanted" where that is furthest
+/// times what is wanted" where that is furthest, or "nothing known of desk[3,1] yet"
 std::string progress_text(const optics::Progress& progress);
 
 /// "12 s", "3 min 05 s", "2 h 07 min"

@@ -129,6 +129,8 @@ std::string missed_text(const optics::Result& result) {
         text += fmt::format(": {} is {:.2g} times as much",
                             furthest.reading.empty() ? "noise δ" : "U of " + furthest.reading,
                             furthest.excess);
+    } else if (std::isinf(furthest.excess) && !furthest.reading.empty()) {
+        text += fmt::format(": nothing is known of {} yet", furthest.reading);
     }
     return text;
 }

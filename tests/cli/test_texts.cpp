@@ -21,6 +21,10 @@ TEST_CASE("The progress line says what is known", "[cli]") {
     CHECK(progress_text(progress) ==
           "phase 12, noise 3.1 % of 2 % wanted, U of desk[3,1] 1.4 times what is wanted, 4.20 M "
           "rays/s, 12 s, 17 s left");
+    progress.furthest.excess = std::numeric_limits<double>::infinity();
+    CHECK(progress_text(progress) ==
+          "phase 12, noise 3.1 % of 2 % wanted, nothing known of desk[3,1] yet, 4.20 M rays/s, "
+          "12 s, 17 s left");
     progress.furthest = {};
     progress.delta = std::numeric_limits<double>::quiet_NaN();
     CHECK(progress_text(progress) == "phase 12, 4.20 M rays/s, 12 s, 17 s left");

@@ -71,6 +71,8 @@ TEST_CASE("The summary says that the accuracy was not reached", "[unit][summary]
                Contains("stopped by: phases, before the accuracy asked for was reached\n"));
     result.furthest = {"desk[3,1]", 2.44};
     CHECK_THAT(summary(result, {}), Contains("reached: U of desk[3,1] is 2.4 times as much\n"));
+    result.furthest.excess = std::numeric_limits<double>::infinity();
+    CHECK_THAT(summary(result, {}), Contains("reached: nothing is known of desk[3,1] yet\n"));
     result.furthest = {{}, 1.5};
     CHECK_THAT(summary(result, {}), Contains("reached: noise δ is 1.5 times as much\n"));
 }

@@ -52,17 +52,36 @@ void BatchMeans::merge(const BatchMeans& other) {
     while (complete_batches_ > most_batches) join_pairs();
 }
 
-double BatchMeans::relative_slope(std::size_t value, std::size_t other) const {
+BatchMeans::Covariation BatchMeans::covariation(std::size_t value, std::size_t other) const {
     const double mean_of_value = complete_[value] / static_cast<double>(complete_batches_);
     const double mean_of_other = complete_[other] / static_cast<double>(complete_batches_);
-    double product = 0.0, square = 0.0;
-    if (mean_of_value == 0.0 || mean_of_other == 0.0) return 0.0;
+    Covariation together{0.0, 0.0};
     for (std::size_t i = 0; i < complete_batches_; ++i) {
-        const double deviation = batch(i)[other] / mean_of_other - 1.0;
-        product += deviation * (batch(i)[value] / mean_of_value - 1.0);
-        square += deviation * deviation;
+        const double deviation = batch(i)[other] - mean_of_other;
+        together.product += deviation * (batch(i)[value] - mean_of_value);
+        together.square += deviation * deviation;
     }
-    return square > 0.0 ? product / square : 0.0;
+    return together;
+}
+
+double BatchMeans::Means::relative_slope(std::size_t value, std::size_t other,
+                                         const Covariation& together) const {
+    auto [product, square] = together;
+    double sum_of_value = all_.complete_[value], sum_of_other = all_.complete_[other];
+    if (left_out_ != none) {
+        // Without a batch its deviations from the means of the others are gone, which are larger
+        // by n / (n - 1) than those from the means of all.
+        const auto batches = static_cast<double>(all_.complete_batches_);
+        const auto batch = all_.batch(left_out_);
+        const double of_value = batch[value] - sum_of_value / batches;
+        const double of_other = batch[other] - sum_of_other / batches;
+        product -= batches / (batches - 1.0) * of_other * of_value;
+        square -= batches / (batches - 1.0) * of_other * of_other;
+        sum_of_value -= batch[value];
+        sum_of_other -= batch[other];
+    }
+    if (!(square > 0.0) || sum_of_value == 0.0) return 0.0;
+    return product / square * sum_of_other / sum_of_value;
 }
 
 double BatchMeans::mean(std::size_t value) const {

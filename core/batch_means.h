@@ -41,24 +41,53 @@ public:
     std::size_t batches() const { return complete_batches_; }
     double mean(std::size_t value) const;
 
-    /// @param functional  double(mean), where mean(i) is the mean of value number i.
+    /// How two values vary together: sums over the complete batches of the products of their
+    /// deviations, and of the squares of those of the other one.
+    struct Covariation {
+        double product, square;
+    };
+    Covariation covariation(std::size_t value, std::size_t other) const;
+
+    /// The means over all phases, or over all complete batches but one.
+    class Means {
+    public:
+        double operator()(std::size_t value) const {
+            if (left_out_ == none) return all_.mean(value);
+            return (all_.complete_[value] - all_.batch(left_out_)[value]) /
+                   ((static_cast<double>(all_.complete_batches_) - 1.0) *
+                    static_cast<double>(all_.batch_size_));
+        }
+        /// How a value follows another from batch to batch: the coefficient of the regression of
+        /// its relative deviations on those of the other; 0 if that one is always the same, or the
+        /// value 0.
+        /// @param together  their covariation over all batches.
+        double relative_slope(std::size_t value, std::size_t other,
+                              const Covariation& together) const;
+
+    private:
+        friend class BatchMeans;
+        static constexpr std::size_t none = most_batches;
+        explicit Means(const BatchMeans& all, std::size_t left_out = none)
+            : all_(all), left_out_(left_out) {}
+
+        const BatchMeans& all_;
+        std::size_t left_out_;
+    };
+    Means means() const { return Means(*this); }
+
+    /// @param functional  double(const Means&).
     /// Of fewer than two phases the error is infinite, and without degrees of freedom.
     template <typename Functional>
     Uncertain of(const Functional& functional) const {
-        Uncertain result{functional([&](std::size_t i) { return mean(i); }),
-                         std::numeric_limits<double>::infinity(), 0.0};
+        Uncertain result{functional(means()), std::numeric_limits<double>::infinity(), 0.0};
         const std::size_t count = complete_batches_;
         if (count < 2) return result;
         const auto batches = static_cast<double>(count);
-        const double phases_left = (batches - 1.0) * static_cast<double>(batch_size_);
         double sum = 0.0;
         double squares = 0.0;
         for (std::size_t left_out = 0; left_out < count; ++left_out) {
             // Differences from the value itself keep the digits of the small spread.
-            const double without = functional([&](std::size_t i) {
-                                       return (complete_[i] - batch(left_out)[i]) / phases_left;
-                                   }) -
-                                   result.value;
+            const double without = functional(Means(*this, left_out)) - result.value;
             sum += without;
             squares += without * without;
         }
@@ -70,10 +99,6 @@ public:
         result.degrees_of_freedom = batches - 1.0;
         return result;
     }
-
-    /// How a value follows another from batch to batch: the coefficient of the regression of its
-    /// relative deviations on those of the other; 0 if that one is always the same, or the value 0.
-    double relative_slope(std::size_t value, std::size_t other) const;
 
     std::size_t bytes() const { return (batches_.size() + 3 * value_count_) * sizeof(double); }
 

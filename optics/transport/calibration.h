@@ -28,46 +28,51 @@ public:
         : sums_(sums), emission_(emission), first_of_emission_(sums.value_count() - 3) {
         // Fewer tell no slope: all light is taken to follow the emission.
         constexpr std::size_t least_batches = 8;
-        follows_.assign(first_of_emission_, 1.0);
         if (sums_.batches() < least_batches) return;
-        regressed_ = true;
-        for (std::size_t i = 0; i < follows_.size(); ++i) {
-            follows_[i] = std::clamp(sums_.relative_slope(i, first_of_emission_ + i % 3), 0.0, 1.0);
+        for (std::size_t i = 0; i < first_of_emission_; ++i) {
+            with_emission_.push_back(sums_.covariation(i, emission_of(i)));
         }
     }
 
-    /// X, Y or Z (part 0, 1, 2) of a bin, from mean(value number).
-    template <typename Mean>
-    double value(Mean&& mean, std::size_t bin, std::size_t part) const {
-        const std::size_t i = 3 * bin + part;
-        const double reading = mean(i);
-        if (follows_[i] == 0.0) return reading;
-        return reading * std::pow(emission_[static_cast<Eigen::Index>(part)] /
-                                      mean(first_of_emission_ + part),
-                                  follows_[i]);
-    }
+    /// X, Y or Z (part 0, 1, 2) of a bin.
     double value(std::size_t bin, std::size_t part) const {
-        return value([&](std::size_t i) { return sums_.mean(i); }, bin, part);
+        return value(sums_.means(), bin, part);
     }
 
     /// functional(value), where value(bin, part) are those of the means; less one degree of freedom
-    /// for the slope.
+    /// for the slope, which each part of the phases tells anew.
     template <typename Functional>
     Uncertain of(const Functional& functional) const {
-        Uncertain result = sums_.of([&](auto&& mean) {
+        Uncertain result = sums_.of([&](const BatchMeans::Means& means) {
             return functional(
-                [&](std::size_t bin, std::size_t part) { return value(mean, bin, part); });
+                [&](std::size_t bin, std::size_t part) { return value(means, bin, part); });
         });
-        if (regressed_) result.degrees_of_freedom -= 1.0;
+        if (regressed()) result.degrees_of_freedom -= 1.0;
         return result;
     }
 
 private:
+    bool regressed() const { return !with_emission_.empty(); }
+    // Number of the emission's value of the same part.
+    std::size_t emission_of(std::size_t i) const { return first_of_emission_ + i % 3; }
+
+    double value(const BatchMeans::Means& means, std::size_t bin, std::size_t part) const {
+        const std::size_t i = 3 * bin + part;
+        const double reading = means(i);
+        const double follows =
+            regressed()
+                ? std::clamp(means.relative_slope(i, emission_of(i), with_emission_[i]), 0.0, 1.0)
+                : 1.0;
+        if (follows == 0.0) return reading;
+        return reading *
+               std::pow(emission_[static_cast<Eigen::Index>(part)] / means(emission_of(i)),
+                        follows);
+    }
+
     const BatchMeans& sums_;
     const Vec3& emission_;
     std::size_t first_of_emission_;
-    std::vector<double> follows_;
-    bool regressed_ = false;
+    std::vector<BatchMeans::Covariation> with_emission_;  // of all values, if they are regressed
 };
 
 }  // namespace lucerna::optics

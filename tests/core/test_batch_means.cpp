@@ -109,9 +109,50 @@ TEST_CASE("How a value follows another is told by what they share", "[statistica
     }
     // Of 32 to 64 batches: standard deviation of the slope (0.1 / 0.2) / sqrt(batches).
     const double error = 0.5 / std::sqrt(32.0);
-    CHECK(std::abs(batches.relative_slope(0, 1) - slope) < 4.9 * error);
-    CHECK_THAT(batches.relative_slope(1, 1), WithinRel(1.0, 1e-9));
-    CHECK(batches.relative_slope(0, 2) == 0.0);  // tells nothing
+    const auto slope_of = [&](std::size_t value, std::size_t other) {
+        return batches.means().relative_slope(value, other, batches.covariation(value, other));
+    };
+    CHECK(std::abs(slope_of(0, 1) - slope) < 4.9 * error);
+    CHECK_THAT(slope_of(1, 1), WithinRel(1.0, 1e-9));
+    CHECK(slope_of(0, 2) == 0.0);  // tells nothing
+}
+
+TEST_CASE("Without a batch there are the mean and the slope of the others", "[property]") {
+    // Two phases in each batch.
+    constexpr std::uint32_t pairs = 33;
+    std::vector<std::array<double, 2>> phases;
+    RandomStream random(5, 0, RandomPurpose::test, 0);
+    for (std::uint32_t i = 0; i < 2 * pairs; ++i) phases.push_back(phase_values(random));
+    BatchMeans all(2);
+    for (const auto& values : phases) all.add(values);
+    const auto together = all.covariation(0, 1);
+    std::vector<double> seen_means, seen_slopes;
+    const auto see = [&](const BatchMeans::Means& means) {
+        seen_means.push_back(means(0));
+        seen_slopes.push_back(means.relative_slope(0, 1, together));
+        return 0.0;
+    };
+    all.of(see);
+    REQUIRE(all.batches() == pairs);
+    REQUIRE(seen_means.size() == pairs + 1);
+    for (std::uint32_t left_out = 0; left_out < pairs; ++left_out) {
+        std::array<double, 2> mean{};
+        for (std::uint32_t i = 0; i < 2 * pairs; ++i) {
+            if (i / 2 == left_out) continue;
+            for (std::size_t k = 0; k < 2; ++k) mean[k] += phases[i][k] / (2.0 * (pairs - 1));
+        }
+        double product = 0.0, square = 0.0;
+        for (std::uint32_t pair = 0; pair < pairs; ++pair) {
+            if (pair == left_out) continue;
+            const auto deviation = [&](std::size_t k) {
+                return 0.5 * (phases[2 * pair][k] + phases[2 * pair + 1][k]) / mean[k] - 1.0;
+            };
+            product += deviation(0) * deviation(1);
+            square += deviation(1) * deviation(1);
+        }
+        CHECK_THAT(seen_means[left_out + 1], WithinRel(mean[0], 1e-12));
+        CHECK_THAT(seen_slopes[left_out + 1], WithinRel(product / square, 1e-9));
+    }
 }
 
 TEST_CASE("Joined runs have the mean and the error of all of their phases", "[property]") {

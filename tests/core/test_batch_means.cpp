@@ -97,14 +97,14 @@ TEST_CASE("One phase has no error", "[unit]") {
 }
 
 TEST_CASE("How a value follows another is told by what they share", "[statistical]") {
-    // value = 5 (1 + 0.4 d + noise), other = 2 (1 + d): slope 0.4, whatever the units.
+    // value = 50 (1 + 0.4 d + noise), other = 2 (1 + d): slope 0.4, whatever the units.
     constexpr double slope = 0.4;
     BatchMeans batches(3);
     RandomStream random(4, 0, RandomPurpose::test, 0);
     constexpr int phases = 4000;
     for (int i = 0; i < phases; ++i) {
         const double d = 0.2 * (random.uniform() - 0.5), noise = 0.1 * (random.uniform() - 0.5);
-        const std::array<double, 3> values{5.0 * (1.0 + slope * d + noise), 2.0 * (1.0 + d), 7.0};
+        const std::array<double, 3> values{50.0 * (1.0 + slope * d + noise), 2.0 * (1.0 + d), 7.0};
         batches.add(values);
     }
     // Of 32 to 64 batches: standard deviation of the slope (0.1 / 0.2) / sqrt(batches).

@@ -40,7 +40,8 @@ public:
     }
 
     /// functional(value), where value(bin, part) are those of the means; less one degree of freedom
-    /// for the slope, which each part of the phases tells anew.
+    /// for the slope. The batches that the jackknife leaves tell the slope anew: its own error
+    /// would else be missing, some 4 % of the standard error after 19 phases.
     template <typename Functional>
     Uncertain of(const Functional& functional) const {
         Uncertain result = sums_.of([&](const BatchMeans::Means& means) {

@@ -35,6 +35,7 @@ struct BinRays {
     /// Radii of their kernels of indirect light over those of the surface.
     double kernel_scale;
     bool barriers;  ///< whether their kernels are looked through for barriers
+    double pixels;  ///< that the bin stands for
     /// Where they are scattered to at their first event, if that is on the patch; else nullptr.
     const ArrivalDensity* arrivals;
     /// Of each light: whether rays that the first event scatters count its emission behind specular
@@ -47,9 +48,9 @@ struct RaySums {
     float rays = 0.0f, luminance = 0.0f, square = 0.0f;
     float segments = 0.0f;     ///< of their paths, shadow rays included
     float kernel_bias = 0.0f;  ///< of the luminance gathered from the map of indirect light
-    float kernel_bias_variance = 0.0f;                      ///< of it, at least
-    float barriers = 0.0f;                                  ///< number of kernels that barriers cut
-    float caustic_photons = 0.0f, indirect_photons = 0.0f;  ///< gathered from each map
+    float kernel_bias_variance = 0.0f;                    ///< of it, at least
+    float barriers = 0.0f;                                ///< number of kernels that barriers cut
+    float caustic_summed = 0.0f, indirect_summed = 0.0f;  ///< photons of each map
 
     RaySums& operator+=(const RaySums& other) {
         rays += other.rays;
@@ -59,8 +60,8 @@ struct RaySums {
         kernel_bias += other.kernel_bias;
         kernel_bias_variance += other.kernel_bias_variance;
         barriers += other.barriers;
-        caustic_photons += other.caustic_photons;
-        indirect_photons += other.indirect_photons;
+        caustic_summed += other.caustic_summed;
+        indirect_summed += other.indirect_summed;
         return *this;
     }
 };
@@ -98,6 +99,7 @@ public:
                 own.first_path + static_cast<std::uint32_t>(bin) * own.most,
                 own.kernels.empty() ? 1.0 : double{own.kernels[bin].scale},
                 own.kernels.empty() ? own.looks_for_barriers : own.kernels[bin].barriers,
+                static_cast<double>(own.tile * own.tile),
                 own.arrivals.empty() ? nullptr : &own.arrivals[bin / own.bins_per_arrivals],
                 own.looks_for.empty() ? nullptr : &own.looks_for};
     }

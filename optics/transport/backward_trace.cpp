@@ -64,8 +64,8 @@ public:
                 sums->kernel_bias_variance += static_cast<float>(
                     square(static_cast<double>(rays.count)) * gathers_.kernel_bias_variance());
                 sums->barriers += static_cast<float>(gathers_.cut_kernels());
-                sums->caustic_photons += static_cast<float>(gathers_.caustic_photons());
-                sums->indirect_photons += static_cast<float>(gathers_.indirect_photons());
+                sums->caustic_summed += gathers_.caustic_summed();
+                sums->indirect_summed += gathers_.indirect_summed();
                 sums->segments +=
                     static_cast<float>(tally_.segments + tally_.shadow_segments - segments);
             }

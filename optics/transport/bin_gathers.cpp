@@ -11,6 +11,11 @@ BinGathers::BinGathers(const Phase& phase, const ObserverBins& bins, const Forwa
       readings_(readings),
       camera_(is_camera(phase.stage.parts(), bins)),
       meter_(std::holds_alternative<LuminanceMeter>(phase.stage.parts().observers[bins.observer])) {
+    if (camera_) {
+        const auto& camera = std::get<Camera>(phase.stage.parts().observers[bins.observer]);
+        pixel_sr_ = square(2.0 * std::tan(camera.horizontal_fov_rad / 2.0) / camera.width);
+        from_ = camera.from;
+    }
 }
 
 void BinGathers::start(std::uint32_t bin, const BinRays& rays) {
@@ -25,7 +30,7 @@ void BinGathers::next_ray(std::uint32_t ray) {
         ray < gathers ? static_cast<float>(rays_.count) / static_cast<float>(gathers) : 0.0f;
     kernel_bias_ = kernel_bias_variance_ = 0.0;
     cut_kernels_ = 0;
-    caustic_photons_ = indirect_photons_ = 0;
+    caustic_summed_ = indirect_summed_ = 0.0f;
 }
 
 // What a ray of a bin finds on a patch stands for the next ones as well that come to the patch
@@ -43,8 +48,14 @@ void BinGathers::where_seen(const GatherPoint& at, std::uint8_t histories, const
     if (!path.hero_only && meter_ && std::holds_alternative<Diffuse>(at.bsdf)) {
         return by_meter(at, histories, weight);
     }
+    GatherPoint shared = at;
+    if (straight && camera_) {
+        const Vec3 way = at.point.position - from_;
+        shared.seen_m2 = pixel_sr_ * rays_.pixels * rays_.per_gather / rays_.count *
+                         way.squaredNorm() * way.norm() / std::abs(way.dot(at.point.normal));
+    }
     if (path.hero_only || rays_.per_gather == 1) {
-        return add(gathered(at, histories, weight), weight);
+        return add(gathered(shared, histories, weight), weight);
     }
     const std::uint32_t patch = kernel_patch(phase_.stage, at.point);
     const bool above = at.wo.z() > 0.0;
@@ -57,7 +68,7 @@ void BinGathers::where_seen(const GatherPoint& at, std::uint8_t histories, const
     }
     if (seen->rays_left == 0) {
         seen->rays_left = rays_.per_gather;
-        seen->gathered = gathered(at, histories, weight);
+        seen->gathered = gathered(shared, histories, weight);
     }
     --seen->rays_left;
     add(seen->gathered, weight);
@@ -106,8 +117,8 @@ Gathered BinGathers::gathered(const GatherPoint& at, std::uint8_t histories, con
     const ForwardMaps::Found found =
         maps_.gather(phase_, own, histories, rays_.kernel_scale, rays_.barriers);
     if (found.cut) ++cut_kernels_;
-    caustic_photons_ += found.caustic_photons;
-    indirect_photons_ += found.indirect_photons;
+    caustic_summed_ += found.caustic_summed;
+    indirect_summed_ += found.indirect_summed;
     if (camera_ && found.indirect_photons > 0) {
         kernel_bias_ += phase_.luminous(weight * found.indirect_bias);
         kernel_bias_variance_ += variance_of_bias *

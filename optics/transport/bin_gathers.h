@@ -33,9 +33,9 @@ public:
     double kernel_bias_variance() const { return kernel_bias_variance_; }
     /// Of the ray: number of kernels that barriers cut.
     int cut_kernels() const { return cut_kernels_; }
-    /// Of the ray: number of photons gathered from each map.
-    std::uint32_t caustic_photons() const { return caustic_photons_; }
-    std::uint32_t indirect_photons() const { return indirect_photons_; }
+    /// Of the ray: number of photons summed from each map.
+    float caustic_summed() const { return caustic_summed_; }
+    float indirect_summed() const { return indirect_summed_; }
 
 private:
     struct Seen {
@@ -54,13 +54,15 @@ private:
     const ForwardMaps& maps_;
     PhaseReadings& readings_;
     bool camera_, meter_;
+    Vec3 from_;
+    double pixel_sr_ = 0.0;  // at the middle of the image
 
     std::uint32_t bin_ = 0;
     BinRays rays_{};                                          // of the bin
     std::vector<Seen, Eigen::aligned_allocator<Seen>> seen_;  // by the rays of the bin
     float specular_weight_ = 1.0f;  // 0: the ray does not gather behind specular events
     int cut_kernels_ = 0;
-    std::uint32_t caustic_photons_ = 0, indirect_photons_ = 0;
+    float caustic_summed_ = 0.0f, indirect_summed_ = 0.0f;
     double kernel_bias_ = 0.0, kernel_bias_variance_ = 0.0;
 };
 

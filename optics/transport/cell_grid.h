@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -13,6 +14,18 @@
 #include "core/vector.h"
 
 namespace lucerna::optics {
+
+/// A number from 0 to 1 that hangs on a position alone, and is another one close by.
+inline double scrambled(const Vec3& position) {
+    // Mixing steps of MurmurHash3's finaliser.
+    std::uint64_t bits = 0;
+    for (int i = 0; i < 3; ++i) {
+        bits ^= std::bit_cast<std::uint64_t>(position[i]);
+        bits *= 0xFF51AFD7ED558CCDull;
+        bits ^= bits >> 33;
+    }
+    return static_cast<double>(bits >> 11) * 0x1p-53;
+}
 
 /// The cells of the grid of one patch; several may share a hash.
 class PatchCells {

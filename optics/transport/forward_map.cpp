@@ -10,6 +10,18 @@
 namespace lucerna::optics {
 namespace {
 
+constexpr std::uint32_t no_lattice = ~0u;
+
+// Points of lattices of a map: some 20 MB.
+constexpr double most_lattice_points = 1 << 17;
+// Where a gather stands for more than this share of a cell of the lattice, the lattice would need
+// nearly as many.
+constexpr double most_seen_per_cell = 0.5;
+// Bias of what is interpolated over that of the kernels: along each axis, between points at a
+// distance h, the second moment is h^2 / 6 in the mean over all places, that of the disc is r^2
+// / 4.
+constexpr double bias_of_interpolation = 1.0 + spacing_per_radius * spacing_per_radius * 2.0 / 3.0;
+
 // Elsewhere the distance along the surface may be longer than the straight one.
 bool is_straight(const Stage& stage, const SurfacePoint& p) {
     return p.object == no_object || !unrolls(stage.parts().objects[p.object].shape, p.patch);
@@ -132,6 +144,43 @@ ForwardMap::ForwardMap(const Stage& stage, const Radii& radii,
                                            photon->on_common_lane)};
     };
     grid_.build<const Photon*>(bucket_mask_ + 1, tasks, threads, emit, place);
+    lay_lattices(stage, radii, photons);
+}
+
+// On each plane patch with photons, as the first of them tells in the order of the rays: not
+// through it, as it would count there more often than others. The patches with the fewest points
+// first.
+void ForwardMap::lay_lattices(const Stage& stage, const Radii& radii,
+                              std::span<const std::vector<Photon>> photons) {
+    std::vector<const SurfacePoint*> first(stage.patch_count());
+    std::vector<std::pair<double, std::uint32_t>> points_of_patches;
+    for (const auto& list : photons) {
+        for (const Photon& photon : list) {
+            if (photon.point.object == no_object) continue;
+            const std::uint32_t patch = stage.patch_index(photon.point);
+            if (first[patch] || !stage.patch_is_plane(patch)) continue;
+            first[patch] = &photon.point;
+            points_of_patches.emplace_back(
+                stage.patch_area_m2(patch) / square(spacing_per_radius * radii[patch]), patch);
+        }
+    }
+    std::ranges::sort(points_of_patches);
+    lattice_of_patch_.assign(stage.patch_count(), no_lattice);
+    double points = 0.0;
+    for (const auto& [of_patch, patch] : points_of_patches) {
+        points += of_patch;
+        if (points > most_lattice_points) break;
+        lattice_of_patch_[patch] = static_cast<std::uint32_t>(lattices_.size());
+        Lattice lattice{*first[patch], Frame(first[patch]->normal)};
+        Vec3& origin = lattice.origin.position;
+        const double spacing_m = spacing_per_radius * radii[patch];
+        const Vec2 shift = spacing_m * Vec2(scrambled(origin), scrambled(-origin));
+        origin += shift.x() * lattice.frame.tangent + shift.y() * lattice.frame.bitangent;
+        lattices_.push_back(lattice);
+    }
+    // Tiles at the rims are not full.
+    lattice_points_ = std::make_unique<KernelLattice>(
+        static_cast<std::size_t>(2.0 * std::min(points, most_lattice_points)));
 }
 
 // The buckets of all cells that the kernel meets.
@@ -254,16 +303,96 @@ std::uint32_t ForwardMap::add_by_place(const GatherPoint& at, const Buckets& buc
     return all;
 }
 
+// In the kernel around the point itself.
+Arriving ForwardMap::arriving(const Stage& stage, const GatherPoint& at, bool above, double cell_m,
+                              double radius_m, const KernelAreas& areas) const {
+    KernelSums sums;
+    const std::uint32_t photons =
+        add_by_place(at, buckets_around(stage, at, cell_m, radius_m),
+                     Candidate::key_of(kernel_patch(stage, at.point), above, false), radius_m,
+                     areas.flat_disc, sums);
+    if (photons == 0) return {};
+    const Gathered light = sums.over(areas, radius_m, rays_);
+    return {light.radiance, light.bias, static_cast<float>(photons)};
+}
+
+// Between points of the lattice, where so much is seen around them that it pays.
+std::optional<Arriving> ForwardMap::arriving_between(const Stage& stage, const GatherPoint& at,
+                                                     bool above, double radius_m) const {
+    const double spacing_m = spacing_per_radius * radius_m;
+    if (!(at.seen_m2 <= most_seen_per_cell * square(spacing_m))) return std::nullopt;
+    const std::uint32_t patch = kernel_patch(stage, at.point);
+    if (lattice_of_patch_[patch] == no_lattice) return std::nullopt;
+    const auto& [origin, frame] = lattices_[lattice_of_patch_[patch]];
+    const Vec3 way = at.point.position - origin.position;
+    // The normal of a mesh has the digits of its file, and tilts the lattice.
+    const double off_plane_m =
+        optics::off_plane_m(stage.parts().objects[origin.object].shape, radius_m);
+    if (std::abs(way.dot(origin.normal)) > off_plane_m + stage.nudge_m()) return std::nullopt;
+    const Vec3 along_x = spacing_m * frame.tangent, along_y = spacing_m * frame.bitangent;
+    const auto gather = [&](int i, int j) -> std::optional<Arriving> {
+        SurfacePoint point = origin;
+        point.position += i * along_x + j * along_y;
+        const GatherPoint there{point, at.frame, at.wo, at.bsdf, at.optics};
+        const KernelAreas areas = areas_left(stage, there, radius_m);
+        // Only points of the patch; those in its corners are left out with those beyond.
+        if (areas.full < 0.5 * pi * square(radius_m)) return std::nullopt;
+        return arriving(stage, there, above, radius_m, radius_m, areas);
+    };
+    auto light = lattice_points_->between({patch, above, at.optics.hero_only},
+                                          way.dot(frame.tangent) / spacing_m,
+                                          way.dot(frame.bitangent) / spacing_m, gather);
+    if (light) light->bias *= static_cast<float>(bias_of_interpolation);
+    return light;
+}
+
+// What a diffuse surface scatters, by places alone.
+Gathered ForwardMap::gather_by_place(const Stage& stage, const GatherPoint& at, double cell_m,
+                                     double radius_m, const Lanes& from_above,
+                                     const Lanes& from_below) const {
+    Gathered gathered;
+    float photons = 0.0f;
+    std::optional<KernelAreas> areas;
+    const auto add_side = [&](bool above, const Lanes& scattered) {
+        std::optional<Arriving> light;
+        float share = 1.0f;
+        if (radius_m == cell_m) light = arriving_between(stage, at, above, radius_m);
+        if (light) {
+            share = static_cast<float>(at.seen_m2 / square(spacing_per_radius * radius_m));
+        } else {
+            if (!areas) areas = areas_left(stage, at, radius_m);
+            light = arriving(stage, at, above, cell_m, radius_m, *areas);
+        }
+        gathered.radiance += light->density * scattered;
+        gathered.bias += light->bias * scattered;
+        gathered.summed += share * light->photons;
+        photons += light->photons;
+    };
+    if (at.from_above && (from_above != 0.0f).any()) add_side(true, from_above);
+    if (at.from_below && (from_below != 0.0f).any()) add_side(false, from_below);
+    gathered.photons = static_cast<std::uint32_t>(photons + 0.5f);
+    return gathered;
+}
+
 Gathered ForwardMap::gather(const Phase& phase, const Radii& radii, const GatherPoint& at) const {
     if (empty()) return {};
     const Stage& stage = phase.stage;
     const double cell_m = radii[kernel_patch(stage, at.point)];
     const double radius_m = std::min({cell_m, radii.of_point(at.sensor_point), at.most_radius_m});
-    const KernelAreas areas = areas_left(stage, at, radius_m);
-    const bool tells_steps = at.tells_steps && areas.flat_disc;
     const auto scattered = [&](const Vec3& wi) {
         return evaluate(at.bsdf, at.optics, at.wo, wi, Transport::radiance);
     };
+    const bool diffuse = std::holds_alternative<Diffuse>(at.bsdf);
+    // All light from a side is scattered alike.
+    const Lanes from_above = diffuse ? scattered(Vec3::UnitZ()) : Lanes::Zero();
+    const Lanes from_below = diffuse ? scattered(-Vec3::UnitZ()) : Lanes::Zero();
+    // Single precision tells places to 6e-8 of the coordinates.
+    if (diffuse && !at.tells_steps && !at.but_of && is_straight(stage, at.point) &&
+        radius_m > 1e-4 * at.point.position.cwiseAbs().maxCoeff()) {
+        return gather_by_place(stage, at, cell_m, radius_m, from_above, from_below);
+    }
+    const KernelAreas areas = areas_left(stage, at, radius_m);
+    const bool tells_steps = at.tells_steps && areas.flat_disc;
     const auto add = [&](KernelLight& to, const Lanes& flux, const Candidate& candidate,
                          std::size_t photon, double weight) {
         ++to.photons;
@@ -275,29 +404,13 @@ Gathered ForwardMap::gather(const Phase& phase, const Radii& radii, const Gather
         to.add_moments(part, (arrivals_[photon].point.position - at.point.position) / radius_m);
     };
     KernelLight sum;
-    if (std::holds_alternative<Diffuse>(at.bsdf)) {
-        // All light from a side is scattered alike.
-        const Lanes from_above = scattered(Vec3::UnitZ()), from_below = scattered(-Vec3::UnitZ());
+    if (diffuse) {
         KernelLight above, below;
-        // Single precision tells places to 6e-8 of the coordinates.
-        const bool quick = is_straight(stage, at.point) && !tells_steps && !at.but_of &&
-                           radius_m > 1e-4 * at.point.position.cwiseAbs().maxCoeff();
-        if (quick) {
-            const std::uint32_t patch = kernel_patch(stage, at.point);
-            const Buckets buckets = buckets_around(stage, at, cell_m, radius_m);
-            const auto side = [&](bool is_above, KernelLight& to) {
-                to.photons = add_by_place(at, buckets, Candidate::key_of(patch, is_above, false),
-                                          radius_m, areas.flat_disc, to);
-            };
-            if (at.from_above && (from_above != 0.0f).any()) side(true, above);
-            if (at.from_below && (from_below != 0.0f).any()) side(false, below);
-        } else {
-            for_each_in_kernel(stage, at, cell_m, radius_m, areas.flat_disc,
-                               [&](const Candidate& candidate, std::size_t photon, double weight) {
-                                   add(candidate.above() ? above : below, fluxes_[photon],
-                                       candidate, photon, weight);
-                               });
-        }
+        for_each_in_kernel(stage, at, cell_m, radius_m, areas.flat_disc,
+                           [&](const Candidate& candidate, std::size_t photon, double weight) {
+                               add(candidate.above() ? above : below, fluxes_[photon], candidate,
+                                   photon, weight);
+                           });
         sum.add_scattered(above, from_above);
         sum.add_scattered(below, from_below);
     } else {
@@ -312,6 +425,7 @@ Gathered ForwardMap::gather(const Phase& phase, const Radii& radii, const Gather
     if (sum.photons == 0) return {};
     Gathered gathered = sum.over(areas, radius_m, rays_);
     gathered.photons = sum.photons;
+    gathered.summed = static_cast<float>(sum.photons);
     if (!tells_steps) return gathered;
     const double per_sum = 1.0 / (rays_ * areas.full);
     for (std::size_t i = 0; i < 3; ++i) {

@@ -3,10 +3,13 @@
 #pragma once
 
 #include <array>
+#include <memory>
+#include <numbers>
 #include <vector>
 
 #include "optics/transport/cell_grid.h"
 #include "optics/transport/forward_trace.h"
+#include "optics/transport/kernel_lattice.h"
 #include "optics/transport/kernel_region.h"
 #include "optics/transport/radii.h"
 
@@ -80,6 +83,14 @@ inline constexpr double bias_per_moment_of_step = 7.5 * pi;
 /// between those of the two radii above by the share that the inner disc lacks.
 double bias_per_difference(const KernelAreas& areas, double radius_m);
 
+/// On plane patches, the light in kernels is interpolated between points of a square lattice at
+/// this distance from each other, in radii, where much is seen around them. The lattice lies
+/// elsewhere in each phase: what interpolation adds to the bias is known in the mean, and is
+/// counted with it.
+inline constexpr double spacing_per_radius = 0.5;
+/// How far from a point the kernels around it reach then, in radii.
+inline constexpr double reach_of_lattice = 1.0 + std::numbers::sqrt2 * spacing_per_radius;
+
 /// Where and how photons are gathered.
 struct GatherPoint {
     const SurfacePoint& point;
@@ -92,6 +103,9 @@ struct GatherPoint {
     const KernelRegion* region = nullptr;  ///< that barriers leave of the kernel, if there are any
     const std::vector<bool>* but_of = nullptr;  ///< lights whose photons are left out, if any
     bool tells_steps = false;                   ///< which costs time
+    /// Area of the surface that this gather stands for, if that is known and no barrier is near
+    /// [m2].
+    double seen_m2 = infinity;
     /// Which photons of indirect light count, by the side of the surface on which they arrive.
     bool from_above = true, from_below = true;
 };
@@ -103,6 +117,7 @@ struct Gathered {
     Lanes radiance = Lanes::Zero();  ///< at the full radius [W/(m2 sr nm)]
     Lanes bias = Lanes::Zero();      ///< of it, as both kernels tell
     std::uint32_t photons = 0;       ///< in the kernel
+    float summed = 0.0f;  ///< photons added up for it: a share of them where gathers are shared
     /// Where asked, in flat discs: first moment over r, which points to where it is brighter; and
     /// that of a step, see bias_per_moment_of_step.
     PerAxis slope = zero_per_axis, step = zero_per_axis;
@@ -111,6 +126,7 @@ struct Gathered {
         radiance += other.radiance;
         bias += other.bias;
         photons += other.photons;
+        summed += other.summed;
         for (std::size_t i = 0; i < 3; ++i) {
             slope[i] += other.slope[i];
             step[i] += other.step[i];
@@ -141,7 +157,10 @@ public:
 
     std::size_t size() const { return fluxes_.size(); }
     bool empty() const { return fluxes_.empty(); }
-    std::size_t bytes() const { return size() * (sizeof(Lanes) + sizeof(Arrival)) + grid_.bytes(); }
+    std::size_t bytes() const {
+        return size() * (sizeof(Lanes) + sizeof(Arrival)) + grid_.bytes() +
+               (lattice_points_ ? lattice_points_->bytes() : 0);
+    }
 
 private:
     // A photon as it stands in its bucket of the hashed grid: 16 bytes, for the cache, as most
@@ -178,12 +197,28 @@ private:
                             double radius_m, bool flat_disc, const Use& use) const;
     std::uint32_t add_by_place(const GatherPoint& at, const Buckets& buckets, std::uint32_t key,
                                double radius_m, bool flat_disc, KernelSums& sums) const;
+    Arriving arriving(const Stage& stage, const GatherPoint& at, bool above, double cell_m,
+                      double radius_m, const KernelAreas& areas) const;
+    std::optional<Arriving> arriving_between(const Stage& stage, const GatherPoint& at, bool above,
+                                             double radius_m) const;
+    Gathered gather_by_place(const Stage& stage, const GatherPoint& at, double cell_m,
+                             double radius_m, const Lanes& from_above,
+                             const Lanes& from_below) const;
+    void lay_lattices(const Stage& stage, const Radii& radii,
+                      std::span<const std::vector<Photon>> photons);
 
     BucketTable<Candidate> grid_;  // cell size: the patch's radius
     std::size_t bucket_mask_ = 0;
     RawArray<Lanes> fluxes_;      // in the order of the grid
     RawArray<Arrival> arrivals_;  // the same
     double rays_ = 1.0;
+    std::vector<std::uint32_t> lattice_of_patch_;  // its number, for patches that have one
+    struct Lattice {
+        SurfacePoint origin;
+        Frame frame;
+    };
+    std::vector<Lattice> lattices_;
+    std::unique_ptr<KernelLattice> lattice_points_;
 };
 
 }  // namespace lucerna::optics

@@ -23,21 +23,27 @@ ForwardMaps::Found ForwardMaps::gather(const Phase& phase, const GatherPoint& at
             std::max(of_caustics ? std::min(at.most_radius_m, caustic_radii[patch]) : 0.0,
                      of_indirect ? wide.most_radius_m : 0.0);
         const Vec3 side = at.wo.z() > 0.0 ? at.frame.normal : Vec3(-at.frame.normal);
-        region = KernelRegion::within(phase.stage, at.point, side, radius_m);
-        if (region) {
+        // Kernels of the points of a lattice reach further.
+        const auto within = [&](double reach_m) {
+            return KernelRegion::within(phase.stage, at.point, side, reach_m);
+        };
+        if (within(reach_of_lattice * radius_m)) {
             found.cut = true;
-            narrow.region = wide.region = &*region;
+            narrow.seen_m2 = wide.seen_m2 = infinity;
+            region = within(radius_m);
+            if (region) narrow.region = wide.region = &*region;
         }
     }
     if (of_caustics) {
         found.light = caustic.gather(phase, caustic_radii, narrow);
-        found.caustic_photons = found.light.photons;
+        found.caustic_summed = found.light.summed;
     }
     if (of_indirect) {
         const Gathered light = indirect.gather(phase, indirect_radii, wide);
         found.indirect = light.radiance;
         found.indirect_bias = light.bias;
         found.indirect_photons = light.photons;
+        found.indirect_summed = light.summed;
         found.light += light;
     }
     return found;

@@ -15,8 +15,9 @@ struct ForwardMaps {
         Gathered light;                       ///< of both maps
         Lanes indirect = Lanes::Zero();       ///< radiance from the indirect map alone
         Lanes indirect_bias = Lanes::Zero();  ///< of it
-        std::uint32_t caustic_photons = 0, indirect_photons = 0;  ///< in the kernels
-        bool cut = false;                                         ///< by barriers
+        std::uint32_t indirect_photons = 0;   ///< in the kernel
+        float caustic_summed = 0.0f, indirect_summed = 0.0f;  ///< see Gathered
+        bool cut = false;                                     ///< by barriers
     };
 
     /// Light of the given histories, or-ed, at a point.

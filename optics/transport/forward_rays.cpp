@@ -123,11 +123,11 @@ void choose_forward_rays(const TraceContext& context, const Settings& settings,
         return static_cast<std::uint32_t>(std::clamp<double>(rays, least_forward_rays, most));
     };
     if (of_indirect) {
-        plan.indirect_rays = rays_for(trace_indirect_map, maps.indirect, sum.indirect_photons,
+        plan.indirect_rays = rays_for(trace_indirect_map, maps.indirect, sum.indirect_summed,
                                       pilot.indirect_rays, plan.indirect_rays);
     }
     if (of_caustics) {
-        plan.caustic_rays = rays_for(trace_caustic_map, maps.caustic, sum.caustic_photons,
+        plan.caustic_rays = rays_for(trace_caustic_map, maps.caustic, sum.caustic_summed,
                                      pilot.caustic_rays, plan.caustic_rays);
     }
 }

@@ -1,11 +1,11 @@
 #include "optics/transport/kernel_region.h"
 
 #include <algorithm>
-#include <bit>
 #include <numbers>
 #include <vector>
 
 #include "optics/geometry/disc_area.h"
+#include "optics/transport/cell_grid.h"
 
 namespace lucerna::optics {
 namespace {
@@ -16,19 +16,6 @@ constexpr double height = 0.05;
 constexpr double least_steepness = 0.2;
 // Stands for infinity, in radii.
 constexpr double far = 1e4;
-
-// Directions must not be the same everywhere: a number from 0 to 1 that hangs on the position
-// alone.
-double turn_of(const Vec3& position) {
-    // Mixing steps of MurmurHash3's finaliser.
-    std::uint64_t bits = 0;
-    for (int i = 0; i < 3; ++i) {
-        bits ^= std::bit_cast<std::uint64_t>(position[i]);
-        bits *= 0xFF51AFD7ED558CCDull;
-        bits ^= bits >> 33;
-    }
-    return static_cast<double>(bits >> 11) * 0x1p-53;
-}
 
 // The part of a polygon on the side of the line through a and b on which the origin lies.
 void clip(std::vector<Vec2>& polygon, const Vec2& a, const Vec2& b) {
@@ -55,7 +42,8 @@ void clip(std::vector<Vec2>& polygon, const Vec2& a, const Vec2& b) {
 KernelRegion::KernelRegion(const Vec3& centre, const Vec3& side, double radius_m)
     : centre_(centre), radius_m_(radius_m) {
     const Frame frame(side);
-    const double angle = 2.0 * pi / sectors * turn_of(centre);
+    // Directions must not be the same everywhere.
+    const double angle = 2.0 * pi / sectors * scrambled(centre);
     x_axis_ = std::cos(angle) * frame.tangent + std::sin(angle) * frame.bitangent;
     y_axis_ = side.cross(x_axis_);
 }

@@ -1,0 +1,290 @@
+// Light in kernels that is interpolated between points of a lattice.
+#include <catch2/catch.hpp>
+
+#include "core/parallel.h"
+#include "optics/transport/forward_maps.h"
+#include "optics/transport/path.h"
+#include "validation/scene_builder.h"
+
+using namespace lucerna;
+using namespace lucerna::optics;
+using Catch::Matchers::WithinAbs;
+using Catch::Matchers::WithinRel;
+
+namespace {
+
+// Linear along each axis, as interpolation keeps it.
+std::optional<Arriving> of_point(int i, int j) {
+    const double density = 2.0 + 3.0 * i - j + 0.5 * i * j;
+    return Arriving{Lanes::Constant(static_cast<float>(density)),
+                    Lanes::Constant(static_cast<float>(0.1 * density)), 10.0f};
+}
+
+double of_place(double x, double y) {
+    return 2.0 + 3.0 * x - y + 0.5 * x * y;
+}
+
+}  // namespace
+
+TEST_CASE("A lattice interpolates between the four points around a place", "[unit]") {
+    // One with room, and one without.
+    for (const std::size_t room : {std::size_t{1} << 12, std::size_t{16}}) {
+        const KernelLattice lattice(room);
+        int gathers = 0;
+        const auto gather = [&](int i, int j) {
+            ++gathers;
+            return of_point(i, j);
+        };
+        RandomStream random(1, 0, RandomPurpose::test, 0);
+        for (int i = 0; i < 2000; ++i) {
+            const double x = 20.0 * random.uniform() - 10.0, y = 20.0 * random.uniform() - 5.0;
+            const auto light = lattice.between({7, true, false}, x, y, gather);
+            REQUIRE(light);
+            CHECK_THAT(static_cast<double>(light->density[3]), WithinAbs(of_place(x, y), 1e-4));
+            CHECK_THAT(static_cast<double>(light->bias[0]), WithinAbs(0.1 * of_place(x, y), 1e-5));
+            CHECK_THAT(light->photons, WithinAbs(10.0, 1e-5));
+        }
+        if (room > 16) CHECK(gathers == 21 * 21);  // each point once
+    }
+}
+
+TEST_CASE("Lattices of patches, sides and single wavelengths are different ones", "[unit]") {
+    const KernelLattice lattice(1 << 12);
+    const auto found = [&](const KernelLattice::Side& side, float value) {
+        const auto gather = [&](int, int) -> std::optional<Arriving> {
+            return Arriving{Lanes::Constant(value), Lanes::Zero(), 1.0f};
+        };
+        return lattice.between(side, 0.3, 0.6, gather)->density[0];
+    };
+    float value = 0.0f;
+    for (const std::uint32_t patch : {0u, 1u, 2u, 4194303u}) {
+        for (const bool above : {false, true}) {
+            for (const bool hero_only : {false, true}) {
+                value += 1.0f;
+                CHECK_THAT(found({patch, above, hero_only}, value), WithinRel(value, 1e-6f));
+                CHECK_THAT(found({patch, above, hero_only}, -1.0f), WithinRel(value, 1e-6f));
+            }
+        }
+    }
+}
+
+TEST_CASE("Nothing is interpolated with a point that is none, nor beyond the lattice", "[unit]") {
+    const KernelLattice lattice(1 << 10);
+    int gathers = 0;
+    const auto gather = [&](int i, int j) -> std::optional<Arriving> {
+        ++gathers;
+        return i == 5 ? std::nullopt : of_point(i, j);
+    };
+    for (int round = 0; round < 2; ++round) {
+        CHECK(lattice.between({0, true, false}, 3.5, 0.5, gather));
+        CHECK_FALSE(lattice.between({0, true, false}, 4.5, 0.5, gather));
+        CHECK_FALSE(lattice.between({0, true, false}, 5.5, 0.5, gather));
+    }
+    CHECK(gathers == 4 + 1);  // (3, 4) x (0, 1), and (5, 0), which ends two look-ups
+    CHECK_FALSE(lattice.between({0, true, false}, 1e6, 0.5, gather));
+    CHECK_FALSE(lattice.between({0, true, false}, 0.5, -1e300, gather));
+    CHECK_FALSE(lattice.between({0, true, false}, std::nan(""), 0.5, gather));
+    CHECK_FALSE(lattice.between({1u << 22, true, false}, 0.5, 0.5, gather));
+}
+
+TEST_CASE("A lattice holds the same whichever threads fill it", "[unit]") {
+    const KernelLattice lattice(1 << 8);  // less than is asked for
+    constexpr std::size_t blocks = 64;
+    std::vector<int> wrong(blocks);
+    for_each_block(blocks, 8, [&](std::size_t block) {
+        RandomStream random(2, 0, RandomPurpose::test, static_cast<std::uint32_t>(block));
+        for (int i = 0; i < 2000; ++i) {
+            const double x = 30.0 * random.uniform(), y = 30.0 * random.uniform();
+            const auto light = lattice.between({0, false, false}, x, y, of_point);
+            const double error = static_cast<double>(light->density[0]) - of_place(x, y);
+            if (!(std::abs(error) < 1e-3)) ++wrong[block];
+        }
+    });
+    CHECK(wrong == std::vector<int>(blocks));
+}
+
+namespace {
+
+constexpr double shared_kernel_m = 0.1;
+
+// A white plate under photons from above.
+struct Plate {
+    validation::SceneBuilder scene;
+    BsdfId paint = scene.diffuse(1.0);
+    ObjectId plate = scene.object("plate", Rectangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, paint);
+
+    explicit Plate(double wall_at_m = 0.0) {
+        if (wall_at_m > 0.0) {
+            scene.object("wall", Rectangle{{wall_at_m, 0, 0}, {0, 1, 0}, {0, 0, 1}}, paint);
+        }
+        scene.light("light", PointLight{{0, 0, 1}}, 1.0);
+        scene.receiver(plate);
+    }
+    SurfacePoint at(double x, double y) const { return {{x, y, 0}, Vec3::UnitZ(), plate}; }
+    Photon photon(double x, double y, double flux) const {
+        return {at(x, y), -Vec3::UnitZ(), Lanes::Constant(static_cast<float>(flux)),
+                History::indirect};
+    }
+};
+
+// What is seen of a map at a place, as part of so large an area.
+class View {
+public:
+    View(const Plate& plate, const Stage& stage)
+        : plate_(plate), stage_(stage), phase_(stage, 1, 0) {}
+
+    template <typename Use>
+    auto with_point(double x, double y, double seen_m2, bool hero_only, const Use& use) const {
+        const SurfacePoint point = plate_.at(x, y);
+        const Frame frame(point.normal);
+        const Vec3 wo = Vec3::UnitZ();
+        const SurfaceOptics optics = optics_at(phase_, no_object, no_object, hero_only, 0);
+        GatherPoint at{point, frame, wo, stage_.parts().bsdfs[plate_.paint], optics};
+        at.seen_m2 = seen_m2;
+        return use(at);
+    }
+    Gathered of(const ForwardMap& map, const Radii& radii, double x, double y, double seen_m2,
+                bool hero_only = false) const {
+        return with_point(x, y, seen_m2, hero_only,
+                          [&](const GatherPoint& at) { return map.gather(phase_, radii, at); });
+    }
+    const Phase& phase() const { return phase_; }
+
+private:
+    const Plate& plate_;
+    const Stage& stage_;
+    Phase phase_;
+};
+
+constexpr double small_m2 = 1e-3 * shared_kernel_m * shared_kernel_m;
+
+}  // namespace
+
+TEST_CASE("What is interpolated has the bias that it states, in the mean over lattices",
+          "[analytic]") {
+    // E = 1 - 0.2 d^2, d in radii: kernels have the bias -0.2 / 2, and between points at a distance
+    // h along both axes -0.2 * 2 h^2 / 6.
+    const Plate plate;
+    const Stage stage(plate.scene.parts);
+    const View view(plate, stage);
+    const Vec2 centre(0.5, 0.4);
+    const double step_m = shared_kernel_m / 60.0, rays = 7.0;
+    std::vector<Photon> photons{plate.photon(0, 0, 0.0)};
+    for (int i = -110; i < 110; ++i) {
+        for (int j = -110; j < 110; ++j) {
+            const Vec2 offset((i + 0.5) * step_m, (j + 0.5) * step_m);
+            const double field =
+                1.0 - 0.2 * offset.squaredNorm() / (shared_kernel_m * shared_kernel_m);
+            const Vec2 q = centre + offset;
+            photons.push_back(plate.photon(q.x(), q.y(), field * step_m * step_m * rays));
+        }
+    }
+    const Radii radii(std::vector<double>(stage.patch_count(), shared_kernel_m));
+    constexpr int offsets = 5;
+    double irradiance = 0.0, bias = 0.0;
+    for (int i = 0; i < offsets; ++i) {
+        for (int j = 0; j < offsets; ++j) {
+            // The first photon, which brings nothing, lays the lattice.
+            const double x = 0.2 + spacing_per_radius * shared_kernel_m * (i + 0.5) / offsets;
+            const double y = 0.7 + spacing_per_radius * shared_kernel_m * (j + 0.5) / offsets;
+            photons.front() = plate.photon(x, y, 0.0);
+            const ForwardMap map(stage, radii, {&photons, 1}, static_cast<std::uint64_t>(rays), 1);
+            const Gathered light = view.of(map, radii, centre.x(), centre.y(), small_m2);
+            irradiance += pi * static_cast<double>(light.radiance[0]) / (offsets * offsets);
+            bias += pi * static_cast<double>(light.bias[0]) / (offsets * offsets);
+        }
+    }
+    const double of_lattice = -0.2 * 2.0 * spacing_per_radius * spacing_per_radius / 6.0;
+    CHECK_THAT(irradiance, WithinAbs(1.0 - 0.1 + of_lattice, 1.5e-3));
+    CHECK_THAT(bias, WithinAbs(-0.1 + of_lattice, 1.5e-3));
+    CHECK(std::abs(of_lattice) > 10 * 1.5e-3);  // the twin: the bias of the kernels alone
+}
+
+namespace {
+
+std::vector<Photon> at_random(const Plate& plate, int count) {
+    std::vector<Photon> photons;
+    RandomStream random(3, 0, RandomPurpose::test, 0);
+    for (int i = 0; i < count; ++i) {
+        const double x = random.uniform();
+        photons.push_back(plate.photon(x, random.uniform(), random.uniform()));
+        photons.back().on_common_lane = i % 3 == 0;
+    }
+    return photons;
+}
+
+bool are_same(const Gathered& a, const Gathered& b) {
+    return (a.radiance == b.radiance).all() && (a.bias == b.bias).all() && a.photons == b.photons;
+}
+
+}  // namespace
+
+TEST_CASE("Where much is seen of a surface its points share gathers, but for its rims", "[unit]") {
+    const Plate plate;
+    const Stage stage(plate.scene.parts);
+    const View view(plate, stage);
+    const std::vector<Photon> photons = at_random(plate, 200000);
+    const Radii radii(std::vector<double>(stage.patch_count(), shared_kernel_m));
+    const ForwardMap map(stage, radii, {&photons, 1}, 1000, 1);
+    for (const bool hero_only : {false, true}) {
+        const Gathered own = view.of(map, radii, 0.5, 0.4, infinity, hero_only);
+        const Gathered shared = view.of(map, radii, 0.5, 0.4, small_m2, hero_only);
+        CHECK_FALSE(are_same(own, shared));
+        // 6300 photons each, most of them the same.
+        CHECK_THAT(shared.radiance[0], WithinRel(own.radiance[0], 0.03f));
+        CHECK_THAT(static_cast<float>(shared.photons),
+                   WithinRel(static_cast<float>(own.photons), 0.03f));
+        // A cell has 0.0025 m2, of which this gather stands for 1e-5 m2.
+        CHECK_THAT(shared.summed, WithinRel(0.004f * static_cast<float>(shared.photons), 1e-3f));
+        CHECK(own.summed == static_cast<float>(own.photons));
+    }
+    const auto shares = [&](double x, double y, double seen_m2) {
+        return !are_same(view.of(map, radii, x, y, infinity), view.of(map, radii, x, y, seen_m2));
+    };
+    CHECK(shares(0.5, 0.4, 0.49 * 0.0025));
+    CHECK_FALSE(shares(0.5, 0.4, 0.51 * 0.0025));
+    // A corner of its cell lies off the plate, and so does one at the corner of the plate.
+    CHECK_FALSE(shares(1e-4, 0.4, small_m2));
+    CHECK_FALSE(shares(0.4, 1.0 - 1e-4, small_m2));
+    CHECK_FALSE(shares(1.0 - 1e-4, 1.0 - 1e-4, small_m2));
+    CHECK(shares(0.06, 0.4, small_m2));
+}
+
+TEST_CASE("A lattice that is tilted by the digits of a normal stands for points near its plane",
+          "[unit]") {
+    const Plate plate;
+    const Stage stage(plate.scene.parts);
+    const View view(plate, stage);
+    std::vector<Photon> photons = at_random(plate, 20000);
+    const Radii radii(std::vector<double>(stage.patch_count(), shared_kernel_m));
+    for (const bool tilted : {false, true}) {
+        photons.front() = plate.photon(0.2, 0.2, 0.0);
+        if (tilted) photons.front().point.normal = Vec3(1e-5, 0.0, 1.0).normalized();
+        const ForwardMap map(stage, radii, {&photons, 1}, 1000, 1);
+        const Gathered own = view.of(map, radii, 0.7, 0.5, infinity);
+        CHECK(are_same(own, view.of(map, radii, 0.7, 0.5, small_m2)) == tilted);
+    }
+}
+
+TEST_CASE("Kernels are not shared near a barrier that those around would reach across", "[unit]") {
+    // A wall on the plate, 1.3 radii from the point: its own kernel does not reach it.
+    const Plate plate(0.63);
+    const Stage stage(plate.scene.parts);
+    const View view(plate, stage);
+    const std::vector<Photon> photons = at_random(plate, 20000);
+    const Radii radii(std::vector<double>(stage.patch_count(), shared_kernel_m));
+    ForwardMaps maps;
+    maps.indirect = ForwardMap(stage, radii, {&photons, 1}, 1000, 1);
+    maps.indirect_radii = radii;
+    const auto found = [&](double x, bool looks_for_barriers) {
+        return view.with_point(x, 0.5, small_m2, false, [&](const GatherPoint& at) {
+            return maps.gather(view.phase(), at, mask(History::indirect), 1.0, looks_for_barriers);
+        });
+    };
+    const auto own = [&](double x) { return view.of(maps.indirect, radii, x, 0.5, infinity); };
+    CHECK(are_same(found(0.5, true).light, own(0.5)));
+    CHECK(found(0.5, true).cut);
+    CHECK_FALSE(are_same(found(0.5, false).light, own(0.5)));
+    CHECK_FALSE(are_same(found(0.44, true).light, own(0.44)));
+    CHECK_FALSE(found(0.44, true).cut);
+}

@@ -1,6 +1,9 @@
 // Light in kernels that is interpolated between points of a lattice.
 #include <catch2/catch.hpp>
 
+#include <chrono>
+#include <thread>
+
 #include "core/parallel.h"
 #include "optics/transport/forward_maps.h"
 #include "optics/transport/path.h"
@@ -88,14 +91,18 @@ TEST_CASE("Nothing is interpolated with a point that is none, nor beyond the lat
 }
 
 TEST_CASE("A lattice holds the same whichever threads fill it", "[unit]") {
-    const KernelLattice lattice(1 << 8);  // less than is asked for
+    const KernelLattice lattice(1 << 11);
+    // Long enough for other threads to come to the same point meanwhile.
+    const auto slowly = [](int i, int j) {
+        std::this_thread::sleep_for(std::chrono::microseconds(50));
+        return of_point(i, j);
+    };
     constexpr std::size_t blocks = 64;
     std::vector<int> wrong(blocks);
     for_each_block(blocks, 8, [&](std::size_t block) {
-        RandomStream random(2, 0, RandomPurpose::test, static_cast<std::uint32_t>(block));
-        for (int i = 0; i < 2000; ++i) {
-            const double x = 30.0 * random.uniform(), y = 30.0 * random.uniform();
-            const auto light = lattice.between({0, false, false}, x, y, of_point);
+        for (int i = 0; i < 400; ++i) {
+            const double x = i % 20 + 0.3, y = i / 20 + 0.8;
+            const auto light = lattice.between({0, false, false}, x, y, slowly);
             const double error = static_cast<double>(light->density[0]) - of_place(x, y);
             if (!(std::abs(error) < 1e-3)) ++wrong[block];
         }

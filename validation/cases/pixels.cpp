@@ -8,7 +8,6 @@
 namespace lucerna::validation {
 namespace {
 
-constexpr int width = 14, height = 10;
 // Near edges; compared for 6 and 12, 12 and 24 cells.
 constexpr double near_edges_error = 1e-3;
 
@@ -17,6 +16,7 @@ constexpr double near_edges_error = 1e-3;
 struct Pinhole {
     Vec3 from, to, up;
     double horizontal_fov_rad;
+    int width = 14, height = 10;
 
     Vec3 direction(double x, double y) const {
         const Vec3 forward = (to - from).normalized();
@@ -37,13 +37,13 @@ optics::Settings by_default(std::uint32_t phases) {
     return settings;
 }
 
-Check pixel_check(int x, int y, double truth, double truth_error) {
+Check pixel_check(const Pinhole& camera, int x, int y, double truth, double truth_error) {
     return {fmt::format("pixel {}, {}", x, y),
             "luminance of a pixel",
             "cd/m2",
             truth,
             truth_error,
-            pixel(0, static_cast<std::size_t>(y * width + x)),
+            pixel(0, static_cast<std::size_t>(y * camera.width + x)),
             0.12};
 }
 
@@ -71,7 +71,9 @@ Seen seen(const std::vector<truth::Panel>& panels, const Vec3& from, const Vec3&
     return nearest;
 }
 
-Case box() {
+// @param fine  Where pixels are small against kernels: these are shared, and one pixel in so many
+//              along each axis is checked.
+Case box(int fine, std::uint32_t phases) {
     constexpr double x_m = 1.0, y_m = 1.3, z_m = 0.8;
     const std::vector<truth::Panel> panels{{0, 0.0, {0.0, y_m}, {0.0, z_m}, 0.3, 0.0},
                                            {0, x_m, {0.0, y_m}, {0.0, z_m}, 0.8, 0.0},
@@ -80,14 +82,15 @@ Case box() {
                                            {2, 0.0, {0.0, x_m}, {0.0, y_m}, 0.65, 0.0},
                                            {2, z_m, {0.0, x_m}, {0.0, y_m / 2}, 0.6, 100.0},
                                            {2, z_m, {0.0, x_m}, {y_m / 2, y_m}, 0.6, 0.0}};
-    const truth::RoomRadiosity coarse(panels, 6), fine(panels, 12);
+    const truth::RoomRadiosity coarse(panels, 6), finer(panels, 12);
     SceneBuilder scene;
     for (const truth::Panel& panel : panels) {
         const optics::ObjectId wall =
             scene.object("wall", rectangle(panel), scene.diffuse(panel.reflectance));
         if (panel.emitted_luminance > 0.0) scene.area_light(wall, panel.emitted_luminance);
     }
-    const Pinhole camera{{0.5, 0.1, 0.45}, {0.4, 1.2, 0.3}, Vec3::UnitZ(), 1.7};
+    const Pinhole camera{{0.5, 0.1, 0.45}, {0.4, 1.2, 0.3}, Vec3::UnitZ(), 1.7,
+                         14 * fine,        10 * fine};
     camera.add_to(scene);
 
     // Means over pixels that lie on one panel, by Gauss-Legendre quadrature with 3 x 3 points.
@@ -95,8 +98,8 @@ Case box() {
     const std::array<double, 3> nodes{0.5 - offset, 0.5, 0.5 + offset};
     const std::array<double, 3> weights{5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
     std::vector<Check> checks;
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
+    for (int y = fine / 2; y < camera.height; y += fine) {
+        for (int x = fine / 2; x < camera.width; x += fine) {
             const auto at = [&](double dx, double dy) {
                 return seen(panels, camera.from, camera.direction(x + dx, y + dy));
             };
@@ -118,16 +121,17 @@ Case box() {
                 }
                 return sum;
             };
-            const double truth = extrapolated(coarse, fine, mean);
-            checks.push_back(pixel_check(x, y, truth, near_edges_error * truth));
+            const double truth = extrapolated(coarse, finer, mean);
+            checks.push_back(pixel_check(camera, x, y, truth, near_edges_error * truth));
         }
     }
-    return {"pixels/box",
-            "the box of closed_box/grey seen from within",
+    return {fine == 1 ? "pixels/box" : "pixels/box-fine",
+            fine == 1 ? "the box of closed_box/grey seen from within"
+                      : "the same box in an image of 280 x 200 pixels, one in 20 along each axis",
             "radiosity as in closed_box, over each pixel that sees one wall by Gauss-Legendre "
             "quadrature",
             scene.parts,
-            by_default(256),
+            by_default(phases),
             checks};
 }
 
@@ -147,8 +151,10 @@ Case block() {
     camera.add_to(scene);
     const double truth = emitted / (1.0 - rho);
     std::vector<Check> checks;
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) checks.push_back(pixel_check(x, y, truth, 0.0));
+    for (int y = 0; y < camera.height; ++y) {
+        for (int x = 0; x < camera.width; ++x) {
+            checks.push_back(pixel_check(camera, x, y, truth, 0.0));
+        }
     }
     return {"pixels/block",
             "a luminous block on the floor of a luminous room, all of one reflectance",
@@ -161,7 +167,7 @@ Case block() {
 }  // namespace
 
 std::vector<Case> pixel_cases() {
-    return {box(), block()};
+    return {box(1, 256), box(20, 64), block()};
 }
 
 }  // namespace lucerna::validation

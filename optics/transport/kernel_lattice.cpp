@@ -1,5 +1,6 @@
 #include "optics/transport/kernel_lattice.h"
 
+#include <algorithm>
 #include <bit>
 
 namespace lucerna::optics {

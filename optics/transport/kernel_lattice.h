@@ -2,7 +2,6 @@
 // them.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
@@ -43,9 +42,8 @@ public:
     std::optional<Arriving> between(const Side& side, double x, double y,
                                     const Gather& gather) const {
         const double i = std::floor(x), j = std::floor(y);
-        if (!(std::max(std::abs(i), std::abs(j)) < most_index) || side.patch > most_patch) {
-            return std::nullopt;
-        }
+        const auto fits = [](double index) { return std::abs(index) < most_index; };
+        if (!fits(i) || !fits(j) || side.patch > most_patch) return std::nullopt;
         const auto right = static_cast<float>(x - i), up = static_cast<float>(y - j);
         Arriving sum;
         for (const int k : {0, 1}) {

@@ -87,6 +87,7 @@ TEST_CASE("Nothing is interpolated with a point that is none, nor beyond the lat
     CHECK_FALSE(lattice.between({0, true, false}, 1e6, 0.5, gather));
     CHECK_FALSE(lattice.between({0, true, false}, 0.5, -1e300, gather));
     CHECK_FALSE(lattice.between({0, true, false}, std::nan(""), 0.5, gather));
+    CHECK_FALSE(lattice.between({0, true, false}, 0.5, std::nan(""), gather));
     CHECK_FALSE(lattice.between({1u << 22, true, false}, 0.5, 0.5, gather));
 }
 

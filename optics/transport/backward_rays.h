@@ -35,7 +35,7 @@ struct BinRays {
     /// Radii of their kernels of indirect light over those of the surface.
     double kernel_scale;
     bool barriers;  ///< whether their kernels are looked through for barriers
-    double pixels;  ///< that the bin stands for
+    double pixels;  ///< that the bin stands for: in pilots, those of a tile
     /// Where they are scattered to at their first event, if that is on the patch; else nullptr.
     const ArrivalDensity* arrivals;
     /// Of each light: whether rays that the first event scatters count its emission behind specular
@@ -50,7 +50,7 @@ struct RaySums {
     float kernel_bias = 0.0f;  ///< of the luminance gathered from the map of indirect light
     float kernel_bias_variance = 0.0f;                    ///< of it, at least
     float barriers = 0.0f;                                ///< number of kernels that barriers cut
-    float caustic_summed = 0.0f, indirect_summed = 0.0f;  ///< photons of each map
+    float caustic_summed = 0.0f, indirect_summed = 0.0f;  ///< photons, see Gathered
 
     RaySums& operator+=(const RaySums& other) {
         rays += other.rays;

@@ -33,7 +33,7 @@ public:
     double kernel_bias_variance() const { return kernel_bias_variance_; }
     /// Of the ray: number of kernels that barriers cut.
     int cut_kernels() const { return cut_kernels_; }
-    /// Of the ray: number of photons summed from each map.
+    /// Of the ray: photons summed from each map, shares of them where gathers are shared.
     float caustic_summed() const { return caustic_summed_; }
     float indirect_summed() const { return indirect_summed_; }
 

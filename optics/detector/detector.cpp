@@ -17,4 +17,13 @@ Ray CameraRays::through(double x, double y) const {
     return {origin_, (forward_ + across * right_ + along * upward_).normalized()};
 }
 
+double CameraRays::seen_by_pixel_m2(const Vec3& position, const Vec3& normal) const {
+    // The pixel's side at distance 1 is s; at an angle a off the axis it has the solid angle
+    // s^2 cos^3 a, which sees the area d^2 / cos b of a surface tilted by b at distance d.
+    const Vec3 way = position - origin_;
+    const double depth_m = way.dot(forward_);
+    const double side = 2.0 * half_width_ / width_;
+    return side * side * depth_m * depth_m * depth_m / std::abs(way.dot(normal));
+}
+
 }  // namespace lucerna::optics

@@ -25,6 +25,9 @@ public:
 
     /// Through a point of the image plane; x right from 0 to width, y down from 0 to height.
     Ray through(double x, double y) const;
+    /// Area of a small surface that one pixel sees [m2]: where the light of a pixel comes from.
+    /// @param position  in front of the camera, in view.
+    double seen_by_pixel_m2(const Vec3& position, const Vec3& normal) const;
 
 private:
     Vec3 origin_, forward_, right_, upward_;

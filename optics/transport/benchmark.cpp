@@ -42,7 +42,10 @@ public:
           plan_(make_plan(context_, without_choice_of_collection(settings))) {}
 
     TraceRates forward_trace() {
-        return trace_rates([&](int threads) { arrivals(effort_.paths, threads, false); });
+        const std::uint32_t rays = effort_.paths / whole_paths_per_path(plan_.indirect_reach);
+        const Emission emission(phase_, RandomPurpose::indirect, EmissionGuide{}, rays);
+        return trace_rates(
+            [&](int threads) { arrivals(emission, plan_.indirect_reach, rays, threads, false); });
     }
 
     TraceRates backward_trace() {
@@ -55,7 +58,8 @@ public:
         const auto vertices = trace(plan_.rays.blocks(), to_second_event, context_.threads);
         for (const auto& block : vertices) rates.build.items += block.size();
         if (rates.build.items == 0) return rates;
-        const auto photons = arrivals(plan_.secondary_rays, context_.threads, true);
+        const auto photons = arrivals(Emission(phase_, RandomPurpose::secondary), Reach::whole_path,
+                                      plan_.secondary_rays, context_.threads, true);
         for (const auto& task : photons) rates.find.items += task.size();
 
         BackwardMap map;
@@ -89,8 +93,8 @@ public:
         const auto photons = trace_photon_lists(
             phase_, context_,
             caustic ? Emission(phase_, RandomPurpose::caustic, plan_.caustic_guide, rays)
-                    : Emission(phase_, RandomPurpose::indirect),
-            caustic ? Reach::first_scattering : Reach::whole_path, mask(history), rays, unused);
+                    : Emission(phase_, RandomPurpose::indirect, EmissionGuide{}, rays),
+            caustic ? Reach::first_scattering : plan_.indirect_reach, mask(history), rays, unused);
         for (const auto& list : photons) rates.build.items += list.size();
         if (rates.build.items == 0) return rates;
 
@@ -196,16 +200,16 @@ private:
         return stored;
     }
 
-    // Traces secondary rays; what arrives at scattering surfaces, by tasks, if it is to be kept.
-    std::vector<std::vector<Photon>> arrivals(std::uint32_t rays, int threads, bool kept) const {
+    // Traces forward rays; what arrives at scattering surfaces, by tasks, if it is to be kept.
+    std::vector<std::vector<Photon>> arrivals(const Emission& emission, Reach reach,
+                                              std::uint32_t rays, int threads, bool kept) const {
         std::vector<std::vector<Photon>> photons((rays + forward_rays_per_block - 1) /
                                                  forward_rays_per_block);
-        const Emission emission(phase_, RandomPurpose::secondary);
         for_each_block(photons.size(), threads, [&](std::size_t task) {
             ForwardTally tally(stage_.parts());
             const auto first = static_cast<std::uint32_t>(task) * forward_rays_per_block;
             for (std::uint32_t i = first; i < std::min(rays, first + forward_rays_per_block); ++i) {
-                trace_forward(phase_, emission, i, Reach::whole_path, nullptr, tally,
+                trace_forward(phase_, emission, i, reach, nullptr, tally,
                               [&](const Photon& photon) {
                                   if (kept) photons[task].push_back(photon);
                               });

@@ -9,12 +9,9 @@ BinGathers::BinGathers(const Phase& phase, const ObserverBins& bins, const Forwa
     : phase_(phase),
       maps_(maps),
       readings_(readings),
-      camera_(is_camera(phase.stage.parts(), bins)),
       meter_(std::holds_alternative<LuminanceMeter>(phase.stage.parts().observers[bins.observer])) {
-    if (camera_) {
-        const auto& camera = std::get<Camera>(phase.stage.parts().observers[bins.observer]);
-        pixel_sr_ = square(2.0 * std::tan(camera.horizontal_fov_rad / 2.0) / camera.width);
-        from_ = camera.from;
+    if (const auto* camera = std::get_if<Camera>(&phase.stage.parts().observers[bins.observer])) {
+        camera_.emplace(*camera);
     }
 }
 
@@ -50,9 +47,8 @@ void BinGathers::where_seen(const GatherPoint& at, std::uint8_t histories, const
     }
     GatherPoint shared = at;
     if (straight && camera_) {
-        const Vec3 way = at.point.position - from_;
-        shared.seen_m2 = pixel_sr_ * rays_.pixels * rays_.per_gather / rays_.count *
-                         way.squaredNorm() * way.norm() / std::abs(way.dot(at.point.normal));
+        shared.seen_m2 = camera_->seen_by_pixel_m2(at.point.position, at.point.normal) *
+                         rays_.pixels * rays_.per_gather / rays_.count;
     }
     if (path.hero_only || rays_.per_gather == 1) {
         return add(gathered(shared, histories, weight), weight);

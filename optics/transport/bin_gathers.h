@@ -1,6 +1,7 @@
 // What the rays of a bin gather from the forward maps, each by itself or one for some.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "optics/transport/backward_rays.h"
@@ -53,9 +54,8 @@ private:
     const Phase& phase_;
     const ForwardMaps& maps_;
     PhaseReadings& readings_;
-    bool camera_, meter_;
-    Vec3 from_;
-    double pixel_sr_ = 0.0;  // at the middle of the image
+    std::optional<CameraRays> camera_;  // of a camera
+    bool meter_;
 
     std::uint32_t bin_ = 0;
     BinRays rays_{};                                          // of the bin

@@ -70,7 +70,9 @@ void choose_forward_rays(const TraceContext& context, const Settings& settings,
 
     Plan pilot = plan;
     pilot.caustic_rays = std::max(least_forward_rays, plan.caustic_rays / pilot_share);
-    pilot.indirect_rays = std::max(least_forward_rays, plan.indirect_rays / pilot_share);
+    const std::uint32_t least_indirect_rays =
+        least_forward_rays / whole_paths_per_path(plan.indirect_reach);
+    pilot.indirect_rays = std::max(least_indirect_rays, plan.indirect_rays / pilot_share);
     const Phase phase(stage, settings.seed, pilot_number);
     const Phase twin = twin_of(phase, pilot_number - 1);
     PhaseTrace trace(context);
@@ -104,7 +106,7 @@ void choose_forward_rays(const TraceContext& context, const Settings& settings,
 
     // With other photons in one of the maps.
     const auto rays_for = [&](auto trace_map, const ForwardMap& map, float gathered,
-                              std::uint32_t pilot_rays, std::uint32_t usual) {
+                              std::uint32_t pilot_rays, std::uint32_t usual, std::uint32_t least) {
         const std::uint64_t segments = trace.counts.forward_segments;
         trace_map(twin, context, pilot, 0, maps, trace);
         const std::vector<RaySums> after = read(phase);
@@ -120,15 +122,15 @@ void choose_forward_rays(const TraceContext& context, const Settings& settings,
                                        usual / most_spared, usual + added);
         const auto most =
             static_cast<double>(std::max<std::uint64_t>(usual, plan.rays.per_phase()));
-        return static_cast<std::uint32_t>(std::clamp<double>(rays, least_forward_rays, most));
+        return static_cast<std::uint32_t>(std::clamp<double>(rays, least, most));
     };
     if (of_indirect) {
         plan.indirect_rays = rays_for(trace_indirect_map, maps.indirect, sum.indirect_summed,
-                                      pilot.indirect_rays, plan.indirect_rays);
+                                      pilot.indirect_rays, plan.indirect_rays, least_indirect_rays);
     }
     if (of_caustics) {
         plan.caustic_rays = rays_for(trace_caustic_map, maps.caustic, sum.caustic_summed,
-                                     pilot.caustic_rays, plan.caustic_rays);
+                                     pilot.caustic_rays, plan.caustic_rays, least_forward_rays);
     }
 }
 

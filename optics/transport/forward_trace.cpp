@@ -1,6 +1,7 @@
 #include "optics/transport/forward_trace.h"
 
 #include <algorithm>
+#include <array>
 
 namespace lucerna::optics {
 namespace {
@@ -38,8 +39,14 @@ constexpr double heavy = 0.05;
 struct Flight {
     Path path;
     History history;
-    double share;  // of the natural flux
+    double share;        // of the natural flux
+    bool split = false;  // one of the directions of a split, which does not split again
 };
+
+// Shifts a number from [0, 1) around that interval.
+double shifted(double u, double by) {
+    return u + by < 1.0 ? u + by : u + by - 1.0;
+}
 
 class ForwardTrace {
 public:
@@ -116,15 +123,18 @@ private:
             // A surface with both kinds of lobes lets the path go on by the specular one.
         }
         const Bsdf& bsdf = parts.bsdfs[encounter->bsdf];
-        // A smooth boundary takes nothing: the change is the luck of choosing lane and lobe.
-        const bool lossless = std::holds_alternative<SmoothDielectric>(bsdf);
+        const bool smooth = std::holds_alternative<SmoothDielectric>(bsdf);
         const auto event = [&](Path& arriving, double u_lobe, double u1, double u2) {
             return sample(bsdf, optics_at(phase_, *encounter, arriving), encounter->wo, u_lobe, u1,
                           u2, Transport::flux);
         };
+        if (reach_ == Reach::whole_path_split && !flight.split && stage.scatters(encounter->bsdf)) {
+            split(flight, *encounter, factor, event, random);
+            return false;
+        }
         std::optional<BsdfSample> sampled;
         double kept = 1.0;  // share of the flux, the rest goes the other way
-        if (lossless && reach_ == Reach::first_scattering && flight.share > heavy) {
+        if (smooth && reach_ == Reach::first_scattering && flight.share > heavy) {
             Path other = path;
             sampled = event(path, one_event, 0.0, 0.0);
             kept = sampled->probability;
@@ -142,12 +152,50 @@ private:
             const double u2 = random.uniform();
             sampled = event(path, u_lobe, u1, u2);
         }
+        return goes_on(flight, *encounter, factor, kept, sampled, random);
+    }
+
+    // Away from an encounter in several directions, which fill those of the lobes evenly, as
+    // shifted points of Hammersley do: each is an unbiased sample by itself.
+    void split(const Flight& flight, const Encounter& encounter, float factor, const auto& event,
+               RandomStream& random) {
+        constexpr std::size_t n = directions_of_split;
+        constexpr std::array<double, n> bits_reversed{0.0, 0.5, 0.25, 0.75};
+        const double lobe = random.uniform();
+        const double first = random.uniform();
+        const double second = random.uniform();
+        const double part_lm = flux_lm_ / n;
+        branches_.reserve(n);
+        for (std::size_t i = 0; i < n; ++i) {
+            Flight part = flight;
+            part.path.weight *= 1.0f / n;
+            part.split = true;
+            if (!part.path.hero_only) {  // parts behind dispersive boundaries differ in it
+                constexpr int apart = spectral::lane_count / static_cast<int>(n);
+                part.path.hero =
+                    (part.path.hero + apart * static_cast<int>(i)) % spectral::lane_count;
+            }
+            flux_lm_ = part_lm;
+            const double u = static_cast<double>(i) / n;
+            const auto sampled = event(part.path, shifted(lobe, u), shifted(first, u),
+                                       shifted(second, bits_reversed[i]));
+            if (goes_on(part, encounter, factor, 1.0, sampled, random)) branches_.push_back(part);
+        }
+    }
+
+    // Away from an encounter in a sampled direction; false where the flight ends.
+    // @param factor  of the segment before, see live_max()
+    // @param kept    share of the flux that the sample stands for
+    bool goes_on(Flight& flight, const Encounter& encounter, float factor, double kept,
+                 const std::optional<BsdfSample>& sampled, RandomStream& random) {
+        Path& path = flight.path;
+        const ObjectId object = encounter.point.object;
         if (!sampled || (reach_ == Reach::first_scattering && !sampled->specular)) {
             tally_.absorbed_by_object[object] += flux_lm_;
             return false;
         }
         const bool turned_hero = sampled->hero_only && !path.hero_only;
-        follow(path, *encounter, *sampled);
+        follow(path, encounter, *sampled);
         factor *= turned_hero ? sampled->weight[path.hero] / spectral::lane_count
                               : live_max(path, sampled->weight);
         path.weight *= static_cast<float>(kept);
@@ -157,6 +205,9 @@ private:
             tally_.numerical += flux_lm_;
             return false;
         }
+        // A smooth boundary takes nothing: the change is the luck of choosing lane and lobe.
+        const bool lossless =
+            std::holds_alternative<SmoothDielectric>(phase_.stage.parts().bsdfs[encounter.bsdf]);
         (lossless ? tally_.residue : tally_.absorbed_by_object[object]) += flux_lm_ - scattered_lm;
         flux_lm_ = scattered_lm;
         if (!sampled->specular) {

@@ -67,12 +67,26 @@ struct ForwardTally {
 };
 
 /// How far forward rays are followed.
-enum class Reach { first_scattering, whole_path };
+enum class Reach {
+    first_scattering,  ///< a guided ray that carries more flux than most goes both ways at smooth
+                       ///< boundaries
+    whole_path,
+    whole_path_split  ///< leaves its first scattering event in several directions, each with its
+                      ///< part of the flux: photons of indirect light for fewer rays
+};
+
+/// Number of directions in which a split path leaves its first scattering event.
+inline constexpr std::uint32_t directions_of_split = 4;
+
+/// Number of whole paths that take about as long as one of this reach: the way to the first
+/// scattering event is paid for once.
+constexpr std::uint32_t whole_paths_per_path(Reach reach) {
+    return reach == Reach::whole_path_split ? 3 : 1;
+}
 
 /// Traces ray number `index` of a trace and gives every arrival at a scattering surface to
-/// `arrive`. With `first_scattering` the path ends there, and a guided ray that carries more flux
-/// than most goes both ways at smooth boundaries. Rays are unbiased samples of the lights' flux;
-/// the sum over n rays divided by n estimates it.
+/// `arrive`. Rays are unbiased samples of the lights' flux; the sum over n rays divided by n
+/// estimates it, split or not.
 /// @param planes  virtual planes of sensors whose crossings count as arrivals too, or nullptr.
 void trace_forward(const Phase& phase, const Emission& emission, std::uint32_t index, Reach reach,
                    const SensorPlanes* planes, ForwardTally& tally,

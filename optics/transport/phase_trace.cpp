@@ -30,12 +30,10 @@ std::uint32_t times_traced(const TraceContext& context, Reach reach) {
     return traces_planes_apart(context, reach) && context.stage.has_scattering() ? 2 : 1;
 }
 
-// The photons of one history: caustics need no path beyond the first scattering event.
+// The photons of one history.
 ForwardMap forward_map(const Phase& phase, const TraceContext& context, History history,
-                       const Emission& emission, std::uint32_t rays, const Radii& radii,
-                       ForwardTally& tally, RayCounts& counts) {
-    const bool caustic = history == History::caustic;
-    const Reach reach = caustic ? Reach::first_scattering : Reach::whole_path;
+                       const Emission& emission, Reach reach, std::uint32_t rays,
+                       const Radii& radii, ForwardTally& tally, RayCounts& counts) {
     const Stopwatch watch;
     const auto photons =
         trace_photon_lists(phase, context, emission, reach, mask(history), rays, tally);
@@ -178,17 +176,18 @@ void trace_caustic_map(const Phase& phase, const TraceContext& context, const Pl
     maps.caustic_radii = plan.caustic_radii.at_phase(radii_of);
     ForwardTally unused(context.stage.parts());
     const Emission emission(phase, RandomPurpose::caustic, plan.caustic_guide, plan.caustic_rays);
-    maps.caustic = forward_map(phase, context, History::caustic, emission, plan.caustic_rays,
-                               maps.caustic_radii, unused, trace.counts);
+    // Caustics need no path beyond the first scattering event.
+    maps.caustic = forward_map(phase, context, History::caustic, emission, Reach::first_scattering,
+                               plan.caustic_rays, maps.caustic_radii, unused, trace.counts);
 }
 
 void trace_indirect_map(const Phase& phase, const TraceContext& context, const Plan& plan,
                         std::uint32_t radii_of, ForwardMaps& maps, PhaseTrace& trace) {
     maps.indirect_radii = plan.indirect_radii.at_phase(radii_of);
     ForwardTally tally(context.stage.parts());
-    maps.indirect =
-        forward_map(phase, context, History::indirect, Emission(phase, RandomPurpose::indirect),
-                    plan.indirect_rays, maps.indirect_radii, tally, trace.counts);
+    const Emission emission(phase, RandomPurpose::indirect, EmissionGuide{}, plan.indirect_rays);
+    maps.indirect = forward_map(phase, context, History::indirect, emission, plan.indirect_reach,
+                                plan.indirect_rays, maps.indirect_radii, tally, trace.counts);
     if (!plan.traces_secondary(context.stage, context.planes)) {
         trace.tally = tally;
         trace.balance_rays = plan.indirect_rays;

@@ -22,6 +22,7 @@ struct Plan {
     Collections collections;
     std::uint32_t caustic_rays = 0, indirect_rays = 0;  ///< of the forward maps, per phase
     std::uint32_t secondary_rays = 0;                   ///< that deposit in the backward map
+    Reach indirect_reach = Reach::whole_path;           ///< of the rays of the indirect map
     Radii caustic_radii, indirect_radii, hidden_radii;  ///< of the first phase
     EmissionGuide caustic_guide;
     bool observed = false;  ///< by any camera or sensor

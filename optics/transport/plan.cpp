@@ -149,7 +149,8 @@ void choose_radii(const TraceContext& context, const Settings& settings, Plan& p
     plan.indirect_rays = settings.forward_rays.value_or(
         std::clamp(rays_for(stage, indirect, plan.indirect_radii,
                             photons_per_ray_of_wide_kernel * plan.rays.per_gather()),
-                   min_forward_rays, at_least_min(plan.rays.per_phase())));
+                   min_forward_rays, at_least_min(plan.rays.per_phase())) /
+        whole_paths_per_path(plan.indirect_reach));
 }
 
 // Which of both ways to collect indirect light has less noise in a phase: the variance over pilot
@@ -179,8 +180,9 @@ void choose_collection_of_images(const TraceContext& context, const Settings& se
     merged.first_gather = mask(History::indirect);
     // The noise of a map falls with its rays, that of single rays to a second scattering event does
     // not.
-    const double of_merged = noise(merged, min_pilot_rays) * min_pilot_rays / plan.indirect_rays;
-    if (of_merged < noise(combined, min_pilot_rays)) {
+    const std::uint32_t rays = min_pilot_rays / whole_paths_per_path(plan.indirect_reach);
+    const double of_merged = noise(merged, rays) * rays / plan.indirect_rays;
+    if (of_merged < noise(combined, rays)) {
         plan.collections.cameras = Collection::merged_where_seen();
     }
 }
@@ -221,7 +223,8 @@ void share_out_rays(const TraceContext& context, const Settings& settings, Plan&
     Plan pilot = plan;
     // What rays of the same surface gather has hardly a say: few photons do.
     pilot.caustic_rays = at_least_min(plan.caustic_rays / 4);
-    pilot.indirect_rays = at_least_min(plan.indirect_rays / 4);
+    pilot.indirect_rays = std::max(min_forward_rays / whole_paths_per_path(plan.indirect_reach),
+                                   plan.indirect_rays / 4);
     pilot.rays = BackwardRays::of_pilot(parts, context.readings, 4);
     pilot.rays.take_kernels(plan.rays);
     if (pilot.rays.blocks().empty()) return;
@@ -244,6 +247,8 @@ Plan make_plan(const TraceContext& context, const Settings& settings) {
         settings.forward_rays.value_or(at_least_min(samples / backward_per_secondary_ray));
     plan.observed = !plan.rays.blocks().empty();
     if (!plan.observed) return plan;
+    // The noise of receivers falls with the rays that leave the lights.
+    if (context.stage.parts().receivers.empty()) plan.indirect_reach = Reach::whole_path_split;
     choose_radii(context, settings, plan);
     const Phase of_sensors(context.stage, settings.seed, pilot_phase - pilot_phases - 7);
     prepare_sensors(of_sensors, context, settings, plan);

@@ -17,6 +17,18 @@ Plan plan_of(const SceneBuilder& scene, const Settings& settings) {
     return make_plan({stage, planes, readings, Scheduler::ordered, 1}, settings);
 }
 
+// A ball of glass under a small lamp in a room, of which an image sees a part.
+SceneBuilder ball_of_glass(double reflectance, const Vec3& target) {
+    SceneBuilder scene;
+    const BsdfId walls = scene.diffuse(reflectance);
+    for (const Shape& wall : SceneBuilder::room(1.0, 1.0, 1.0)) scene.object("wall", wall, walls);
+    scene.area_light(
+        scene.object("lamp", Disk{{0.7, 0.5, 0.95}, -Vec3::UnitZ(), 0.05}, scene.black()), 1e4);
+    scene.solid("ball", Sphere{{0.7, 0.5, 0.25}, 0.15}, scene.medium(1.5));
+    scene.camera({0.3, 0.5, 0.5}, target, Vec3(0.1, 0.0, 1.0), 0.4, 128, 128);
+    return scene;
+}
+
 }  // namespace
 
 TEST_CASE("With the rays that pay, variance times cost is least") {
@@ -60,8 +72,8 @@ TEST_CASE("Forward rays are fewer where backward rays are noisy by themselves") 
 
 TEST_CASE("Caustic rays that sensors need are not spared for an image") {
     const auto rays = [](bool sensor) {
-        SceneBuilder scene = test::cornell_caustic(128);
-        if (sensor) scene.points({{0.7, 0.0, 0.6}}, Vec3::UnitY());
+        SceneBuilder scene = ball_of_glass(0.8, {0.0, 0.5, 0.9});
+        if (sensor) scene.points({{0.7, 0.5, 0.01}}, Vec3::UnitZ());
         Settings settings;
         settings.method = Method::forward;
         return plan_of(scene, settings).caustic_rays;
@@ -73,21 +85,13 @@ TEST_CASE("Caustic rays that sensors need are not spared for an image") {
 }
 
 TEST_CASE("Rays go to the map whose light is the noisier in view") {
-    // A ball of glass under a small lamp. In a dark room its caustic is all the light that maps
-    // hold; before a bright wall there is no caustic.
+    // In a dark room the caustic is all the light that maps hold; before a bright wall there is
+    // none.
     const auto plan = [](double reflectance, const Vec3& target) {
-        SceneBuilder scene;
-        const BsdfId walls = scene.diffuse(reflectance);
-        for (const Shape& wall : SceneBuilder::room(1.0, 1.0, 1.0))
-            scene.object("wall", wall, walls);
-        scene.area_light(
-            scene.object("lamp", Disk{{0.7, 0.5, 0.95}, -Vec3::UnitZ(), 0.05}, scene.black()), 1e4);
-        scene.solid("ball", Sphere{{0.7, 0.5, 0.25}, 0.15}, scene.medium(1.5));
-        scene.camera({0.3, 0.5, 0.5}, target, Vec3(0.1, 0.0, 1.0), 0.4, 128, 128);
         Settings settings;
         settings.method = Method::forward;
         settings.samples_per_pixel = 8;
-        return plan_of(scene, settings);
+        return plan_of(ball_of_glass(reflectance, target), settings);
     };
     const auto indirect_paths = [](const Plan& chosen) {
         return chosen.indirect_rays * whole_paths_per_path(chosen.indirect_reach);

@@ -24,20 +24,21 @@ struct Traced {
 }  // namespace
 
 TEST_CASE("Split paths bring the flux of all orders of reflection", "[analytic]") {
-    // A closed sphere that scatters 0.3 of what arrives and mirrors 0.2. Of each lumen emitted 1
-    // arrives directly, 0.2 + 0.2^2 + ... = 0.25 by mirror reflection alone, and in all
-    // 1 + 0.5 + 0.5^2 + ... = 2, so that 0.75 has been scattered.
+    // A closed sphere that scatters 0.12 of what arrives and mirrors 0.08. Of each lumen emitted 1
+    // arrives directly, 0.08 + 0.08^2 + ... = 2/23 by mirror reflection alone, and in all
+    // 1 + 0.2 + 0.2^2 + ... = 5/4, so that 1/4 - 2/23 has been scattered. It is so dark that a path
+    // which split at each event would still come to an end.
     constexpr double flux_lm = 100.0;
     SceneBuilder builder;
-    const BsdfId diffuse = builder.diffuse(0.5);
-    const BsdfId mirror = builder.mirror(0.5);
+    const BsdfId diffuse = builder.diffuse(0.2);
+    const BsdfId mirror = builder.mirror(0.2);
     builder.receiver(
         builder.object("sphere", Sphere{Vec3::Zero(), 1.0},
                        builder.parts.add(Bsdf{Mixture{{{0.6, diffuse}, {0.4, mirror}}}})));
     builder.light("lamp", PointLight{{0.3, 0.1, 0.0}}, flux_lm);
     const Traced traced(builder);
 
-    constexpr std::uint32_t phases = 40, rays = 4000;
+    constexpr std::uint32_t phases = 60, rays = 4000;
     Estimate direct_lm, caustic_lm, indirect_lm;
     for (std::uint32_t number = 0; number < phases; ++number) {
         const Phase phase(traced.stage, 1, number);
@@ -67,10 +68,11 @@ TEST_CASE("Split paths bring the flux of all orders of reflection", "[analytic]"
         test::check_mean(estimate.mean(), estimate.standard_error(), truth_lm, {0.03});
     };
     check(direct_lm, flux_lm);
-    check(caustic_lm, 0.25 * flux_lm);
-    check(indirect_lm, 0.75 * flux_lm);
-    // Were the parts of a split heavier by one part in four:
-    CHECK_FALSE(test::agrees(indirect_lm.mean(), indirect_lm.standard_error(), 0.6 * flux_lm));
+    check(caustic_lm, 2.0 / 23.0 * flux_lm);
+    check(indirect_lm, (1.0 / 4.0 - 2.0 / 23.0) * flux_lm);
+    // Were five parts of a quarter each followed:
+    CHECK_FALSE(test::agrees(indirect_lm.mean(), indirect_lm.standard_error(),
+                             5.0 / 4.0 * (1.0 / 4.0 - 2.0 / 23.0) * flux_lm));
 }
 
 TEST_CASE("The directions of a split fill the lobe evenly", "[analytic]") {

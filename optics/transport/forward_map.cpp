@@ -91,6 +91,13 @@ double bias_per_difference(const KernelAreas& areas, double radius_m) {
     return 2.0 + 2.0 * std::numbers::sqrt2 * lacks;  // to 1 / (1 - 1 / sqrt 2)
 }
 
+double cut_radius_m(const KernelAreas& areas, double radius_m, double share) {
+    if (areas.flat_disc) return radius_m;
+    const double left = areas.full / (pi * square(radius_m));
+    const double whole = std::clamp(2.0 * left - 1.0, 0.0, 1.0);  // 0 at a straight rim
+    return radius_m * (share + (1.0 - share) * whole);
+}
+
 Gathered KernelSums::over(const KernelAreas& areas, double radius_m, double rays) const {
     if (!(areas.full > 0.0)) return {};
     const Lanes radiance = full * static_cast<float>(1.0 / (rays * areas.full));
@@ -335,8 +342,8 @@ std::optional<Arriving> ForwardMap::arriving_between(const Stage& stage, const G
         point.position += i * along_x + j * along_y;
         const GatherPoint there{point, at.frame, at.wo, at.bsdf, at.optics};
         const KernelAreas areas = areas_left(stage, there, radius_m);
-        // Only points of the patch; those in its corners are left out with those beyond.
-        if (areas.full < 0.5 * pi * square(radius_m)) return std::nullopt;
+        // Kernels that a rim cuts have radii of their own.
+        if (!areas.flat_disc) return std::nullopt;
         return arriving(stage, there, above, radius_m, radius_m, areas);
     };
     auto light = lattice_points_->between({patch, above, at.optics.hero_only},
@@ -348,11 +355,12 @@ std::optional<Arriving> ForwardMap::arriving_between(const Stage& stage, const G
 
 // What a diffuse surface scatters, by places alone.
 Gathered ForwardMap::gather_by_place(const Stage& stage, const GatherPoint& at, double cell_m,
-                                     double radius_m, const Lanes& from_above,
+                                     double radius_m, double share_of_cut, const Lanes& from_above,
                                      const Lanes& from_below) const {
     Gathered gathered;
     float photons = 0.0f;
     std::optional<KernelAreas> areas;
+    double own_radius_m = radius_m;
     const auto add_side = [&](bool above, const Lanes& scattered) {
         std::optional<Arriving> light;
         float share = 1.0f;
@@ -360,8 +368,12 @@ Gathered ForwardMap::gather_by_place(const Stage& stage, const GatherPoint& at, 
         if (light) {
             share = static_cast<float>(at.seen_m2 / square(spacing_per_radius * radius_m));
         } else {
-            if (!areas) areas = areas_left(stage, at, radius_m);
-            light = arriving(stage, at, above, cell_m, radius_m, *areas);
+            if (!areas) {
+                areas = areas_left(stage, at, radius_m);
+                own_radius_m = cut_radius_m(*areas, radius_m, share_of_cut);
+                if (own_radius_m < radius_m) areas = areas_left(stage, at, own_radius_m);
+            }
+            light = arriving(stage, at, above, cell_m, own_radius_m, *areas);
         }
         gathered.radiance += light->density * scattered;
         gathered.bias += light->bias * scattered;
@@ -389,7 +401,8 @@ Gathered ForwardMap::gather(const Phase& phase, const Radii& radii, const Gather
     // Single precision tells places to 6e-8 of the coordinates.
     if (diffuse && !at.tells_steps && !at.but_of && is_straight(stage, at.point) &&
         radius_m > 1e-4 * at.point.position.cwiseAbs().maxCoeff()) {
-        return gather_by_place(stage, at, cell_m, radius_m, from_above, from_below);
+        return gather_by_place(stage, at, cell_m, radius_m, radii.share_of_cut(), from_above,
+                               from_below);
     }
     const KernelAreas areas = areas_left(stage, at, radius_m);
     const bool tells_steps = at.tells_steps && areas.flat_disc;

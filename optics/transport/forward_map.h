@@ -83,6 +83,10 @@ inline constexpr double bias_per_moment_of_step = 7.5 * pi;
 /// between those of the two radii above by the share that the inner disc lacks.
 double bias_per_difference(const KernelAreas& areas, double radius_m);
 
+/// Radius of a kernel of which a rim or a barrier leaves `areas`: from `share` of its own one where
+/// half of the disc is left, or less, to all of it where nothing is cut off. See Radii.
+double cut_radius_m(const KernelAreas& areas, double radius_m, double share);
+
 /// On plane patches, the light in kernels is interpolated between points of a square lattice at
 /// this distance from each other, in radii, where much is seen around them. The lattice lies
 /// elsewhere in each phase: what interpolation adds to the bias is known in the mean, and is
@@ -202,7 +206,7 @@ private:
     std::optional<Arriving> arriving_between(const Stage& stage, const GatherPoint& at, bool above,
                                              double radius_m) const;
     Gathered gather_by_place(const Stage& stage, const GatherPoint& at, double cell_m,
-                             double radius_m, const Lanes& from_above,
+                             double radius_m, double share_of_cut, const Lanes& from_above,
                              const Lanes& from_below) const;
     void lay_lattices(const Stage& stage, const Radii& radii,
                       std::span<const std::vector<Photon>> photons);

@@ -103,11 +103,13 @@ Radii radii_of(const Stage& stage, const SensorPlanes& planes, const PilotPhoton
 }  // namespace
 
 Radii Radii::at_phase(std::uint32_t number) const {
-    constexpr double alpha = 4.0 / 5.0;
-    const double factor = std::pow(static_cast<double>(number) + 1.0, (alpha - 1.0) / 2.0);
+    constexpr double alpha = 4.0 / 5.0, alpha_of_cut = 1.0 / 2.0;
+    const double phase = static_cast<double>(number) + 1.0;
+    const double factor = std::pow(phase, (alpha - 1.0) / 2.0);
     Radii shrunk = *this;
     for (double& radius : shrunk.radii_m_) radius *= factor;
     for (double& radius : shrunk.of_points_m_) radius *= factor;
+    shrunk.share_of_cut_ = std::pow(phase, (alpha_of_cut - alpha) / 2.0);
     return shrunk;
 }
 

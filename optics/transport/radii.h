@@ -27,11 +27,17 @@ public:
     /// The variance of the mean falls with N^-alpha. Their alpha = 2/3 balances it with the square
     /// of a bias O(r^2) = O(N^(alpha - 1)). Here that bias is measured and taken off, and what is
     /// left is O(r^4): alpha = 4/5 balances that, and the error falls with N^-0.4, not N^-0.33.
+    ///
+    /// Where half of a disc is cut off, as in the corner between two walls, the bias is O(r): there
+    /// alpha = 1/2 balances its square, r being the share_of_cut() smaller.
     Radii at_phase(std::uint32_t number) const;
+    /// Of the radius, that is left where half of a kernel's disc is cut off, see cut_radius_m().
+    double share_of_cut() const { return share_of_cut_; }
 
 private:
     std::vector<double> radii_m_;
     std::vector<double> of_points_m_;
+    double share_of_cut_ = 1.0;
 };
 
 /// Photons of a trace with `rays` rays whose results are not used but for what follows.

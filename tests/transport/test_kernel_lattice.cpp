@@ -296,3 +296,41 @@ TEST_CASE("Kernels are not shared near a barrier that those around would reach a
     CHECK_FALSE(are_same(found(0.44, true).light, own(0.44)));
     CHECK_FALSE(found(0.44, true).cut);
 }
+
+TEST_CASE("Kernels that a rim cuts shrink faster, and their bias with them", "[analytic]") {
+    // E = 1 + d, d the distance from the rim in first radii. Half of a disc around a point of the
+    // rim has its middle at 4 r / 3 pi. Whole kernels of the phase number 16 have 16^(-1/10) of the
+    // first radius; a half one has 16^(-1/4), a half.
+    const Plate plate;
+    const Stage stage(plate.scene.parts);
+    const View view(plate, stage);
+    const double step_m = shared_kernel_m / 80.0, rays = 7.0;
+    std::vector<Photon> photons;
+    for (int i = 0; i < 100; ++i) {
+        for (int j = -100; j < 100; ++j) {
+            const double x = (i + 0.5) * step_m, y = 0.5 + (j + 0.5) * step_m;
+            const double field = 1.0 + x / shared_kernel_m;
+            photons.push_back(plate.photon(x, y, field * step_m * step_m * rays));
+        }
+    }
+    const Radii first(std::vector<double>(stage.patch_count(), shared_kernel_m));
+    const auto at_rim = [&](const Radii& radii) {
+        const ForwardMap map(stage, radii, {&photons, 1}, static_cast<std::uint64_t>(rays), 1);
+        const Gathered light = view.of(map, radii, 1e-9, 0.5, small_m2);
+        return pi * static_cast<double>(light.radiance[0]);
+    };
+    const auto of_radius = [](double radii) { return 1.0 + 4.0 * radii / (3.0 * pi); };
+    const double in_first = at_rim(first.at_phase(0)), later = at_rim(first.at_phase(15));
+    INFO("E of the first phase " << in_first << ", of the 16th " << later);
+    CHECK(std::abs(in_first - of_radius(1.0)) < 0.01);
+    CHECK(std::abs(later - of_radius(0.5)) < 0.01);
+    CHECK_FALSE(std::abs(later - of_radius(std::pow(16.0, -0.1))) < 0.01);
+
+    // Between, in proportion to what is left beyond half of the disc.
+    const auto left = [](double share) {
+        return KernelAreas{share * pi, 0.5 * share * pi, share == 1.0};
+    };
+    CHECK(cut_radius_m(left(1.0), 1.0, 0.4) == 1.0);
+    CHECK(std::abs(cut_radius_m(left(0.75), 1.0, 0.4) - 0.7) < 1e-12);
+    CHECK(std::abs(cut_radius_m(left(0.3), 1.0, 0.4) - 0.4) < 1e-12);
+}

@@ -88,40 +88,40 @@ TEST_CASE("Furnace: closed shapes seen from within", "[analytic]") {
         const Vec3 middle = turned() * Vec3(0.5, 0.6, 0.4);
         scene.meter(middle, turned() * Vec3(1.0, 0.7, 0.3), half_angle_rad);
         scene.meter(middle, turned() * Vec3(1.0, 1.3, 0.8), half_angle_rad);
-        check_furnace(scene, rho, Method::combined, {64, 2000});
+        check_furnace(scene, rho, Method::combined, {64, 6000});
     }
     SECTION("sphere") {
         SceneBuilder scene = shell(Sphere{{0.1, 0.2, 0.3}, 0.6}, rho);
         scene.meter({0.1, 0.2, 0.3}, {0.7, 0.2, 0.3}, half_angle_rad);
         scene.meter({0.5, 0.3, 0.1}, {0.1, 0.8, 0.3}, half_angle_rad);
-        check_furnace(scene, rho, Method::combined, {64, 2000});
+        check_furnace(scene, rho, Method::combined, {64, 6000});
     }
     SECTION("cylinder") {
         SceneBuilder scene = shell(Cylinder{{0.0, 0.0, 0.0}, {0.4, 0.2, 1.0}, 0.4}, rho);
         scene.meter({0.2, 0.1, 0.5}, {0.6, 0.1, 0.5}, half_angle_rad);   // the side
         scene.meter({0.2, 0.1, 0.5}, {0.4, 0.2, 1.0}, half_angle_rad);   // a cap
         scene.meter({0.2, 0.1, 0.5}, {0.35, 0.0, 0.0}, half_angle_rad);  // the edge between both
-        check_furnace(scene, rho, Method::combined, {64, 2000});
+        check_furnace(scene, rho, Method::combined, {64, 6000});
     }
     SECTION("between the walls of a tube") {
         SceneBuilder scene = shell(Tube{{0.0, 0.0, 0.0}, {0.0, 0.3, 0.7}, 0.6, 0.2}, rho);
         scene.meter({0.4, 0.15, 0.35}, {0.0, 0.15, 0.35}, half_angle_rad);  // the inner side
         scene.meter({0.4, 0.15, 0.35}, {0.4, 0.45, 0.35}, half_angle_rad);  // the outer side
         scene.meter({0.4, 0.15, 0.35}, {0.3, 0.3, 0.7}, half_angle_rad);    // an annulus
-        check_furnace(scene, rho, Method::combined, {64, 2000});
+        check_furnace(scene, rho, Method::combined, {64, 6000});
     }
     SECTION("mesh of a box") {
         SceneBuilder scene = shell(MeshInstance{test::box_mesh({1.0, 1.3, 0.8}, 8), turned()}, rho);
         const Vec3 middle = turned() * Vec3(0.5, 0.6, 0.4);
         scene.meter(middle, turned() * Vec3(1.0, 0.7, 0.3), half_angle_rad);
         scene.meter(middle, turned() * Vec3(1.0, 1.3, 0.8), half_angle_rad);
-        check_furnace(scene, rho, Method::combined, {64, 2000});
+        check_furnace(scene, rho, Method::combined, {64, 6000});
     }
     SECTION("mesh of a sphere") {
         SceneBuilder scene = shell(MeshInstance{test::sphere_mesh(0.6, 24), turned()}, rho);
         scene.meter({0.0, 0.0, 0.0}, {0.6, 0.2, 0.1}, half_angle_rad);
         scene.meter({0.3, 0.1, -0.1}, {0.1, 0.5, 0.3}, half_angle_rad);
-        check_furnace(scene, rho, Method::combined, {64, 2000});
+        check_furnace(scene, rho, Method::combined, {64, 6000});
     }
 }
 

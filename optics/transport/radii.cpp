@@ -109,7 +109,7 @@ Radii Radii::at_phase(std::uint32_t number) const {
     Radii shrunk = *this;
     for (double& radius : shrunk.radii_m_) radius *= factor;
     for (double& radius : shrunk.of_points_m_) radius *= factor;
-    shrunk.share_of_cut_ = std::pow(phase, (alpha_of_cut - alpha) / 2.0);
+    if (tells_cut_) shrunk.share_of_cut_ = std::pow(phase, (alpha_of_cut - alpha) / 2.0);
     return shrunk;
 }
 
@@ -122,7 +122,9 @@ Radii narrow_radii(const Stage& stage, const SensorPlanes& planes, const PilotPh
 
 Radii wide_radii(const Stage& stage, const SensorPlanes& planes, const PilotPhotons& pilot,
                  int threads) {
-    return radii_of(stage, planes, pilot, {infinity, infinity}, true, threads);
+    Radii radii = radii_of(stage, planes, pilot, {infinity, infinity}, true, threads);
+    radii.tell_cut_kernels_apart();
+    return radii;
 }
 
 std::uint32_t rays_for(const Stage& stage, const PilotPhotons& pilot, const Radii& radii,

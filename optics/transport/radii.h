@@ -28,15 +28,17 @@ public:
     /// of a bias O(r^2) = O(N^(alpha - 1)). Here that bias is measured and taken off, and what is
     /// left is O(r^4): alpha = 4/5 balances that, and the error falls with N^-0.4, not N^-0.33.
     ///
-    /// Where half of a disc is cut off, as in the corner between two walls, the bias is O(r): there
-    /// alpha = 1/2 balances its square, r being the share_of_cut() smaller.
+    /// Where half of a disc is cut off, as in the corner between two walls, the bias of smooth
+    /// light is O(r): there alpha = 1/2 balances its square, if cut kernels are told apart at all.
     Radii at_phase(std::uint32_t number) const;
+    void tell_cut_kernels_apart() { tells_cut_ = true; }
     /// Of the radius, that is left where half of a kernel's disc is cut off, see cut_radius_m().
     double share_of_cut() const { return share_of_cut_; }
 
 private:
     std::vector<double> radii_m_;
     std::vector<double> of_points_m_;
+    bool tells_cut_ = false;
     double share_of_cut_ = 1.0;
 };
 
@@ -66,7 +68,7 @@ Radii narrow_radii(const Stage& stage, const SensorPlanes& planes, const PilotPh
                    const PhotonsPerKernel& photons, std::uint32_t rays, bool seen, int threads);
 
 /// The same for seen surfaces whatever number of photons their kernels hold: as wide as the limits
-/// and the bias allow.
+/// and the bias allow. Kernels that are cut are told apart.
 Radii wide_radii(const Stage& stage, const SensorPlanes& planes, const PilotPhotons& pilot,
                  int threads);
 

@@ -315,13 +315,15 @@ TEST_CASE("Kernels that a rim cuts shrink faster, and their bias with them", "[a
             photons.push_back(plate.photon(x, y, field * step_m * step_m * rays));
         }
     }
-    const Radii first(std::vector<double>(stage.patch_count(), shared_kernel_m));
+    Radii first(std::vector<double>(stage.patch_count(), shared_kernel_m));
     const auto at_rim = [&](const Radii& radii) {
         const ForwardMap map(stage, radii, {&photons, 1}, static_cast<std::uint64_t>(rays), 1);
         const Gathered light = view.of(map, radii, 1e-9, 0.5, small_m2);
         return pi * static_cast<double>(light.radiance[0]);
     };
     const auto of_radius = [](double radii) { return 1.0 + 4.0 * radii / (3.0 * pi); };
+    CHECK(std::abs(at_rim(first.at_phase(15)) - of_radius(std::pow(16.0, -0.1))) < 0.01);
+    first.tell_cut_kernels_apart();
     const double in_first = at_rim(first.at_phase(0)), later = at_rim(first.at_phase(15));
     INFO("E of the first phase " << in_first << ", of the 16th " << later);
     CHECK(std::abs(in_first - of_radius(1.0)) < 0.01);

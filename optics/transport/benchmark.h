@@ -36,7 +36,7 @@ struct BackwardMapRates {
 
 struct Rates {
     std::vector<int> threads;
-    TraceRates forward;   ///< whole paths from the lights, without deposits
+    TraceRates forward;   ///< paths of the map of indirect light
     TraceRates backward;  ///< from the observers to the second scattering event, no map attached
     BackwardMapRates backward_map;
     ForwardMapRates caustic_map, indirect_map;

@@ -68,8 +68,8 @@ struct ForwardTally {
 
 /// How far forward rays are followed.
 enum class Reach {
-    first_scattering,  ///< a guided ray that carries more flux than most goes both ways at smooth
-                       ///< boundaries
+    first_scattering,  ///< the path ends there, and a guided ray that carries more flux than most
+                       ///< goes both ways at smooth boundaries
     whole_path,
     whole_path_split  ///< leaves its first scattering event in several directions, each with its
                       ///< part of the flux: photons of indirect light for fewer rays

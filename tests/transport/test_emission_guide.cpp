@@ -1,5 +1,6 @@
 // Rays that are sent where they are of use: they still stand for all light, and have less noise.
 #include "optics/transport/plan.h"
+#include "tests/support/traced_scene.h"
 #include "tests/support/truth_checks.h"
 #include "validation/truth/luminance_weights.h"
 
@@ -33,10 +34,11 @@ EmissionGuide taught(std::uint32_t rays) {
 }
 
 /// A mirror disk of radius 0.1 at half a metre from a point source in the middle of a sphere.
-struct MirrorInSphere {
+struct MirrorInSphere : test::TracedScene {
     static constexpr double radius_m = 0.1, distance_m = 0.5, reflectance = 0.9, flux_lm = 100.0;
 
-    SceneBuilder scene = [] {
+    MirrorInSphere() : TracedScene(builder()) {}
+    static SceneBuilder builder() {
         SceneBuilder builder;
         builder.object("sphere", Sphere{Vec3::Zero(), 1.0}, builder.diffuse(0.2));
         builder.object("mirror", Disk{{distance_m, 0, 0}, -Vec3::UnitX(), radius_m},
@@ -44,12 +46,7 @@ struct MirrorInSphere {
         builder.light("lamp", PointLight{Vec3::Zero()}, flux_lm);
         builder.camera({0.2, 0, 0}, {-1, 0, 0}, Vec3::UnitZ(), 2.0, 32, 32);
         return builder;
-    }();
-    Stage stage{scene.parts};
-    SensorPlanes planes{stage.parts(), stage.caster(), 0.1};
-    Settings settings;
-    Readings readings{scene.parts, settings};
-    TraceContext context{stage, planes, readings, Scheduler::ordered, 1};
+    }
 
     /// Flux of the photons that the mirror sends to the sphere, over phases.
     template <typename MakeEmission>

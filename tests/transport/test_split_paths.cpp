@@ -2,26 +2,12 @@
 #include "optics/transport/plan.h"
 #include "tests/support/check_mean.h"
 #include "tests/support/cornell_scenes.h"
+#include "tests/support/traced_scene.h"
 
 using namespace lucerna;
 using namespace lucerna::optics;
 using test::SceneBuilder;
-
-namespace {
-
-// A scene with all that a trace needs.
-struct Traced {
-    explicit Traced(SceneBuilder builder) : scene(std::move(builder)) {}
-
-    SceneBuilder scene;
-    Stage stage{scene.parts};
-    SensorPlanes planes{stage.parts(), stage.caster(), 0.1};
-    Settings settings;
-    Readings readings{scene.parts, settings};
-    TraceContext context{stage, planes, readings, Scheduler::ordered, 1};
-};
-
-}  // namespace
+using test::TracedScene;
 
 TEST_CASE("Split paths bring the flux of all orders of reflection", "[analytic]") {
     // A closed sphere that scatters 0.12 of what arrives and mirrors 0.08. Of each lumen emitted 1
@@ -36,7 +22,7 @@ TEST_CASE("Split paths bring the flux of all orders of reflection", "[analytic]"
         builder.object("sphere", Sphere{Vec3::Zero(), 1.0},
                        builder.parts.add(Bsdf{Mixture{{{0.6, diffuse}, {0.4, mirror}}}})));
     builder.light("lamp", PointLight{{0.3, 0.1, 0.0}}, flux_lm);
-    const Traced traced(builder);
+    const TracedScene traced(builder);
 
     constexpr std::uint32_t phases = 60, rays = 4000;
     Estimate direct_lm, caustic_lm, indirect_lm;
@@ -85,7 +71,7 @@ TEST_CASE("The directions of a split fill the lobe evenly", "[analytic]") {
     builder.receiver(builder.object("sphere", Sphere{Vec3::Zero(), 1.0}, builder.diffuse(1e-6)));
     builder.light("beam",
                   BeamLight{Disk{0.5 * Vec3::UnitZ(), -Vec3::UnitZ(), 0.001}, -Vec3::UnitZ()}, 1.0);
-    const Traced traced(builder);
+    const TracedScene traced(builder);
     const Phase phase(traced.stage, 1, 0);
     const Emission emission(phase, RandomPurpose::indirect);
     constexpr std::uint32_t rays = 4000;
@@ -115,7 +101,7 @@ TEST_CASE("The directions of a split fill the lobe evenly", "[analytic]") {
 }
 
 TEST_CASE("Of split paths all light is accounted for") {
-    const Traced traced(test::cornell_caustic(16));
+    const TracedScene traced(test::cornell_caustic(16));
     constexpr std::uint32_t phases = 40, rays = 1000;
     Estimate residue;
     for (std::uint32_t number = 0; number < phases; ++number) {
@@ -140,7 +126,7 @@ TEST_CASE("Paths that receivers count are not split for images") {
     const auto reach = [](bool receiver) {
         SceneBuilder scene = test::cornell_diffuse(16);
         if (receiver) scene.receiver(0);
-        const Traced traced(scene);
+        const TracedScene traced(scene);
         return make_plan(traced.context, traced.settings).indirect_reach;
     };
     CHECK(reach(false) == Reach::whole_path_split);

@@ -28,8 +28,8 @@ struct Uncertain {
     double expanded_uncertainty(double coverage = 0.95) const;
 };
 
-/// Running mean and spread of a functional that is computed once per phase (METHOD eq. 5, with N -
-/// 1).
+/// Running mean and spread of a functional that is computed once per phase
+/// (docs/method.md eq. 5).
 ///
 /// The phase is the statistical unit: photons and wavelengths are shared within it, so an error bar
 /// taken inside a phase would be too small. `bias` runs beside the value: the kernel bias of the
@@ -64,7 +64,7 @@ public:
     /// Half width U of the interval value() +/- U.
     double expanded_uncertainty(double coverage = 0.95) const;
 
-    /// Mean as estimated, kernel bias included, and its standard deviation (METHOD eq. 5).
+    /// Mean as estimated, kernel bias included, and its standard deviation (docs/method.md eq. 5).
     double mean() const;
     double mean_standard_error() const;
     double bias() const;

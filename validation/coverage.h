@@ -29,7 +29,8 @@ std::array<std::size_t, 2> binomial_bounds(std::size_t trials, double p);
 struct Coverage {
     std::string quantity;
     Share stated;  ///< truth within value +/- U
-    /// Truth within 1.96 standard errors of the uncorrected mean: METHOD eq. 5 alone, without bias.
+    /// Truth within 1.96 standard errors of the uncorrected mean: docs/method.md eq. 5 alone,
+    /// without bias.
     Share noise_only;
     double mean_z = 0.0;
     /// Median over checks of the median U over seeds, divided by 1.96 times the standard deviation

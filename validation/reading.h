@@ -15,7 +15,7 @@ struct Reading {
     /// Degrees of freedom of both.
     double degrees_of_freedom = std::numeric_limits<double>::infinity();
     double uncorrected_value = 0.0;           ///< mean over phases without bias correction
-    double uncorrected_standard_error = 0.0;  ///< of that mean (METHOD eq. 5)
+    double uncorrected_standard_error = 0.0;  ///< of that mean (docs/method.md eq. 5)
 };
 
 /// Takes a number from a result.

@@ -1,5 +1,5 @@
-// The backward photon map (METHOD eq. 3): vertices of backward rays that collect the flux of
-// forward rays hitting their surroundings.
+// The backward photon map (docs/method.md eq. 3): vertices of backward rays that collect the flux
+// of forward rays hitting their surroundings.
 #pragma once
 
 #include <memory>

@@ -1,4 +1,4 @@
-// Direct light at a scattering surface by multiple importance sampling (METHOD eq. 4).
+// Direct light at a scattering surface by multiple importance sampling (docs/method.md eq. 4).
 #pragma once
 
 #include "optics/transport/forward_map.h"

@@ -1,5 +1,5 @@
-// The forward photon map (METHOD eq. 2): photons from the lights, gathered where a backward ray
-// meets a scattering surface.
+// The forward photon map (docs/method.md eq. 2): photons from the lights, gathered where a backward
+// ray meets a scattering surface.
 #pragma once
 
 #include <array>
@@ -53,9 +53,9 @@ KernelAreas kernel_areas(const Stage& stage, const SurfacePoint& p, double radiu
 Vec3 kernel_direction(const Frame& frame, const Vec3& normal, const Vec3& direction);
 
 /// Kernels are summed twice from the same photons: evenly, and as a narrower kernel. In a whole
-/// disc the bias is c r^2, so that bias(r) = 2 (L(r) - L(r / sqrt 2)) up to O(r^4)  (METHOD
-/// section 6.1). Where half of the disc or more is cut off, the centre of what is left is off the
-/// point, and the bias is c r.
+/// disc the bias is c r^2, so that bias(r) = 2 (L(r) - L(r / sqrt 2)) up to O(r^4)
+/// (docs/method.md eq. 8). Where half of the disc or more is cut off, the centre of what is left is
+/// off the point, and the bias is c r.
 inline constexpr double inner_radius_factor = 0.70710678118654752;
 
 /// Weight in the narrow kernel of a flat, whole disc at the distance sqrt(s) r: the polynomial of
@@ -143,7 +143,7 @@ struct Gathered {
 struct KernelSums {
     Lanes full = Lanes::Zero(), narrow = Lanes::Zero();
 
-    /// L = 1 / (A N) sum f dPhi                                              METHOD eq. (2), (3)
+    /// L = 1 / (A N) sum f dPhi                                              docs/method.md eq. 2
     Gathered over(const KernelAreas& areas, double radius_m, double rays) const;
 };
 

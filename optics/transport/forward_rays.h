@@ -13,7 +13,7 @@ struct NoiseAndCost {
 
 /// Number of forward rays with which the product of variance and cost is least, for a map whose
 /// `rays` rays have the noise and cost `of_map` beside backward rays with `of_backward`:
-///     n = N sqrt(A t_B / (B t_F))                                          METHOD section 2
+///     n = N sqrt(A t_B / (B t_F))                                          docs/method.md eq. 7
 /// where A and B are the variances, t_F and t_B the costs.
 double rays_that_pay(double rays, const NoiseAndCost& of_map, const NoiseAndCost& of_backward);
 

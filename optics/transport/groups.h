@@ -1,4 +1,4 @@
-// The two-level scheduler (METHOD section 4): groups of threads, each with the backward map of its
+// The two-level scheduler (docs/method.md): groups of threads, each with the backward map of its
 // own part of the image, that also deposit into each other's maps.
 #pragma once
 

@@ -1,4 +1,4 @@
-// One phase of the combined method (METHOD section 2): the page to read first.
+// One phase of the combined method (docs/method.md): the page to read first.
 //   1 forward trace, caustic          trace_photons(); another for indirect light if that is
 //                                     gathered where it is seen
 //   2 forward maps                    ForwardMaps

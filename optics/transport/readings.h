@@ -97,7 +97,7 @@ public:
     std::vector<DerivedQuantity> derived(const SceneParts& parts) const;
     /// Sum over the pixels of all cameras of the variance over phases.
     double image_variance() const;
-    /// delta of METHOD eq. (6) over the pixels of all cameras; 0 without a camera.
+    /// delta of docs/method.md eq. 6 over the pixels of all cameras; 0 without a camera.
     double delta(int threads) const;
     Furthest furthest_sensor(const SceneParts& parts, const Settings& targets) const;
     std::size_t bytes() const;

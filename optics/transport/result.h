@@ -29,7 +29,7 @@ struct Image {
     static constexpr int tile_size = 16;
     std::vector<Estimate> tiles;
     Estimate mean;
-    double delta = 0.0;       ///< METHOD eq. 6, of the corrected pixels
+    double delta = 0.0;       ///< docs/method.md eq. 6, of the corrected pixels
     double delta_bias = 0.0;  ///< the same norm of the measured kernel bias that is left in them
 
     /// Share of its measured kernel bias that is taken off a pixel: see

@@ -32,7 +32,7 @@ struct RunState {
     std::vector<std::string> warnings;
 
     Readings readings;
-    double delta = std::nan("");     ///< of METHOD eq. (6), from 2 phases on; not saved
+    double delta = std::nan("");     ///< of docs/method.md eq. 6, from 2 phases on; not saved
     ForwardTally tally;              ///< of the rays that the flux balance is taken from
     std::uint64_t tally_rays = 0;    ///< their number
     std::vector<Estimate> received;  ///< per receiver: front, back [lm]

@@ -18,7 +18,7 @@ enum class Method {
     path
 };
 
-/// How the work of a phase is shared among threads (METHOD section 4).
+/// How the work of a phase is shared among threads (docs/method.md).
 enum class Scheduler {
     ordered,      ///< all threads on one phase; deposits are sorted by place before they are added,
                   ///< so that no two threads write to the same: same bits for any threads
@@ -67,7 +67,7 @@ struct Settings {
     std::uint64_t seed = 1;
     int threads = 0;  ///< 0: all of the machine
     Scheduler scheduler = Scheduler::ordered;
-    std::optional<double> image_accuracy;   ///< delta of METHOD eq. 6 to stop at, such as 0.02
+    std::optional<double> image_accuracy;   ///< delta to stop at (docs/method.md eq. 6)
     std::optional<double> sensor_accuracy;  ///< U / value of each sensor to stop at, such as 0.01
     std::vector<SensorTarget> sensor_targets;  ///< of single sensors, in place of sensor_accuracy
     std::optional<double> time_limit_s;        ///< wall time

@@ -1,4 +1,4 @@
-// The simulation: the phase loop of METHOD section 2.
+// The simulation: the loop over phases.
 #pragma once
 
 #include <atomic>
@@ -12,7 +12,7 @@ namespace lucerna::optics {
 /// State of a running simulation, for the progress line.
 struct Progress {
     std::uint32_t phase = 0;  ///< phases done
-    double delta = 0.0;       ///< METHOD eq. (6); not a number before two phases
+    double delta = 0.0;       ///< docs/method.md eq. 6; not a number before two phases
     std::optional<double> delta_wanted;
     double rays_per_s = 0.0;
     double elapsed_s = 0.0;

@@ -1,4 +1,4 @@
-// However threads share the work, the means are the same (METHOD section 4, the trap).
+// However threads share the work, the means are the same (docs/method.md, threads).
 #include <catch2/catch.hpp>
 
 #include "optics/transport/simulate.h"

@@ -33,6 +33,8 @@ public:
         }
     }
 
+    std::vector<CutKernel> take_cut_kernels() { return gathers_.take_cut_kernels(); }
+
     /// All rays of a bin.
     void trace(const ObserverBins& bins, std::size_t bin, const BinRays& rays, RaySums* sums) {
         bin_ = static_cast<std::uint32_t>(bins.first_bin + bin);
@@ -63,7 +65,7 @@ public:
                 sums->kernel_bias += static_cast<float>(rays.count * gathers_.kernel_bias());
                 sums->kernel_bias_variance += static_cast<float>(
                     square(static_cast<double>(rays.count)) * gathers_.kernel_bias_variance());
-                sums->barriers += static_cast<float>(gathers_.cut_kernels());
+                sums->barriers += static_cast<float>(gathers_.cut_by_barriers());
                 sums->caustic_summed += gathers_.caustic_summed();
                 sums->indirect_summed += gathers_.indirect_summed();
                 sums->segments +=
@@ -430,6 +432,7 @@ std::vector<BackwardPhoton> trace_backward(const Phase& phase, const Collections
         ray.trace(bins, bin, rays.of(block.observer_bins, bin),
                   sums ? &(*sums)[bins.first_bin + bin] : nullptr);
     }
+    tally.cut_kernels = ray.take_cut_kernels();
     return stored;
 }
 

@@ -6,6 +6,7 @@
 #include "optics/transport/collection.h"
 #include "optics/transport/direct_light.h"
 #include "optics/transport/forward_maps.h"
+#include "optics/transport/pooled_bias.h"
 #include "optics/transport/readings.h"
 
 namespace lucerna::optics {
@@ -13,6 +14,7 @@ namespace lucerna::optics {
 struct BackwardTally {
     std::uint64_t segments = 0, shadow_segments = 0;
     std::vector<std::uint64_t> lights_found = {};  ///< see BinRays::looks_for; empty: none
+    std::vector<CutKernel> cut_kernels = {};       ///< seen by pixels
 };
 
 /// Traces the backward rays of a block of bins of an observer: adds visible emission, direct and

@@ -26,7 +26,7 @@ void BinGathers::next_ray(std::uint32_t ray) {
     specular_weight_ =
         ray < gathers ? static_cast<float>(rays_.count) / static_cast<float>(gathers) : 0.0f;
     kernel_bias_ = kernel_bias_variance_ = 0.0;
-    cut_kernels_ = 0;
+    cut_by_barriers_ = 0;
     caustic_summed_ = indirect_summed_ = 0.0f;
 }
 
@@ -50,8 +50,10 @@ void BinGathers::where_seen(const GatherPoint& at, std::uint8_t histories, const
         shared.seen_m2 = camera_->seen_by_pixel_m2(at.point.position, at.point.normal) *
                          rays_.pixels * rays_.per_gather / rays_.count;
     }
+    const bool cut_apart = straight && camera_;
     if (path.hero_only || rays_.per_gather == 1) {
-        return add(gathered(shared, histories, weight), weight);
+        const auto found = gathered(shared, histories, weight);
+        return cut_apart ? add_cut(found, at, at.point.position, weight) : add(found, weight);
     }
     const std::uint32_t patch = kernel_patch(phase_.stage, at.point);
     const bool above = at.wo.z() > 0.0;
@@ -64,10 +66,12 @@ void BinGathers::where_seen(const GatherPoint& at, std::uint8_t histories, const
     }
     if (seen->rays_left == 0) {
         seen->rays_left = rays_.per_gather;
-        seen->gathered = gathered(shared, histories, weight);
+        seen->position = at.point.position;
+        seen->found = gathered(shared, histories, weight);
     }
     --seen->rays_left;
-    add(seen->gathered, weight);
+    if (cut_apart) return add_cut(seen->found, at, seen->position, weight);
+    add(seen->found, weight);
 }
 
 // Many rays of a meter see nearly the same points: what one finds stands for all that come close to
@@ -89,8 +93,8 @@ void BinGathers::by_meter(const GatherPoint& at, std::uint8_t histories, const L
         return s.patch == patch && s.above == above &&
                (s.position - at.point.position).squaredNorm() <= near_m * near_m;
     });
-    if (close != seen_.end()) return add(close->gathered, weight);
-    const Gathered found = gathered(at, histories, weight);
+    if (close != seen_.end()) return add(close->found, weight);
+    const ForwardMaps::Found found = gathered(at, histories, weight);
     if (seen_.size() < most_seen) {
         seen_.push_back({patch, above, 0, at.point.position, weight, found});
     }
@@ -98,7 +102,7 @@ void BinGathers::by_meter(const GatherPoint& at, std::uint8_t histories, const L
 }
 
 void BinGathers::at_sensor(const GatherPoint& at, std::uint8_t histories) {
-    const Gathered found = gathered(at, histories, Lanes::Ones());
+    const Gathered found = gathered(at, histories, Lanes::Ones()).light;
     constexpr auto weight = static_cast<float>(pi);
     readings_.add_tristimulus(bin_, weight * found.radiance, weight * found.bias);
     const auto luminous = [&](const PerAxis& moment) {
@@ -107,12 +111,13 @@ void BinGathers::at_sensor(const GatherPoint& at, std::uint8_t histories) {
     readings_.add_steps(bin_, luminous(found.slope), luminous(found.step));
 }
 
-Gathered BinGathers::gathered(const GatherPoint& at, std::uint8_t histories, const Lanes& weight) {
+ForwardMaps::Found BinGathers::gathered(const GatherPoint& at, std::uint8_t histories,
+                                        const Lanes& weight) {
     GatherPoint own = at;
     own.tells_steps = !camera_;
     const ForwardMaps::Found found =
         maps_.gather(phase_, own, histories, rays_.kernel_scale, rays_.barriers);
-    if (found.cut) ++cut_kernels_;
+    if (found.cut) ++cut_by_barriers_;
     caustic_summed_ += found.caustic_summed;
     indirect_summed_ += found.indirect_summed;
     if (camera_ && found.indirect_photons > 0) {
@@ -121,17 +126,42 @@ Gathered BinGathers::gathered(const GatherPoint& at, std::uint8_t histories, con
                                  square(phase_.luminous(weight * found.indirect)) /
                                  found.indirect_photons;
     }
-    return found.light;
+    return found;
 }
 
-void BinGathers::add(const Gathered& gathered, const Lanes& weight) {
-    readings_.add(phase_, bin_, weight * gathered.radiance, weight * gathered.bias);
+void BinGathers::add(const ForwardMaps::Found& found, const Lanes& weight) {
+    const Gathered& light = found.light;
+    readings_.add(phase_, bin_, weight * light.radiance, weight * light.bias);
     if (camera_) return;
     const auto luminous = [&](const PerAxis& moment) {
         return Vec3(phase_.luminous(weight * moment[0]), phase_.luminous(weight * moment[1]),
                     phase_.luminous(weight * moment[2]));
     };
-    readings_.add_steps(bin_, luminous(gathered.slope), luminous(gathered.step));
+    readings_.add_steps(bin_, luminous(light.slope), luminous(light.step));
+}
+
+void BinGathers::add_cut(const ForwardMaps::Found& found, const GatherPoint& at, const Vec3& centre,
+                         const Lanes& weight) {
+    const float mean_weight = weight.mean();
+    if (found.indirect_left == 1.0f || !(mean_weight > 0.0f)) return add(found, weight);
+    readings_.add(phase_, bin_, weight * found.light.radiance,
+                  weight * (found.light.bias - found.indirect_bias));
+    const Eigen::Vector3f position = centre.cast<float>();
+    if (!cut_kernels_.empty() && cut_kernels_.back().bin == bin_ &&
+        cut_kernels_.back().position == position) {
+        cut_kernels_.back().weight += mean_weight;  // another ray for which the same kernel stands
+        return;
+    }
+    const std::uint32_t patch = kernel_patch(phase_.stage, at.point);
+    cut_kernels_.push_back(
+        {.bin = bin_,
+         .side = 2 * patch + (at.wo.z() > 0.0 ? 1 : 0),
+         .position = position,
+         .normal = at.point.normal.cast<float>(),
+         .whole_m = static_cast<float>(maps_.indirect_radii[patch]),
+         .left = found.indirect_left,
+         .weight = mean_weight,
+         .bias = static_cast<float>(phase_.luminous(weight * found.indirect_bias)) / mean_weight});
 }
 
 }  // namespace lucerna::optics

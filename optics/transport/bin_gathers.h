@@ -6,6 +6,7 @@
 
 #include "optics/transport/backward_rays.h"
 #include "optics/transport/forward_maps.h"
+#include "optics/transport/pooled_bias.h"
 #include "optics/transport/readings.h"
 
 namespace lucerna::optics {
@@ -33,10 +34,12 @@ public:
     /// That bias varies at least so much, as photons are counted [of its unit squared].
     double kernel_bias_variance() const { return kernel_bias_variance_; }
     /// Of the ray: number of kernels that barriers cut.
-    int cut_kernels() const { return cut_kernels_; }
+    int cut_by_barriers() const { return cut_by_barriers_; }
     /// Of the ray: photons summed from each map, shares of them where gathers are shared.
     float caustic_summed() const { return caustic_summed_; }
     float indirect_summed() const { return indirect_summed_; }
+    /// Of all rays so far: kernels whose bias is left to add_pooled_bias().
+    std::vector<CutKernel> take_cut_kernels() { return std::move(cut_kernels_); }
 
 private:
     struct Seen {
@@ -45,11 +48,14 @@ private:
         std::uint32_t rays_left;
         Vec3 position;
         Lanes weight;
-        Gathered gathered;
+        ForwardMaps::Found found;
     };
     void by_meter(const GatherPoint& at, std::uint8_t histories, const Lanes& weight);
-    Gathered gathered(const GatherPoint& at, std::uint8_t histories, const Lanes& weight);
-    void add(const Gathered& gathered, const Lanes& weight);
+    ForwardMaps::Found gathered(const GatherPoint& at, std::uint8_t histories, const Lanes& weight);
+    void add(const ForwardMaps::Found& found, const Lanes& weight);
+    /// The same, but the bias of a cut kernel.
+    void add_cut(const ForwardMaps::Found& found, const GatherPoint& at, const Vec3& centre,
+                 const Lanes& weight);
 
     const Phase& phase_;
     const ForwardMaps& maps_;
@@ -61,9 +67,10 @@ private:
     BinRays rays_{};                                          // of the bin
     std::vector<Seen, Eigen::aligned_allocator<Seen>> seen_;  // by the rays of the bin
     float specular_weight_ = 1.0f;  // 0: the ray does not gather behind specular events
-    int cut_kernels_ = 0;
+    int cut_by_barriers_ = 0;
     float caustic_summed_ = 0.0f, indirect_summed_ = 0.0f;
     double kernel_bias_ = 0.0, kernel_bias_variance_ = 0.0;
+    std::vector<CutKernel> cut_kernels_;
 };
 
 }  // namespace lucerna::optics

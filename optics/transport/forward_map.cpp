@@ -383,6 +383,10 @@ Gathered ForwardMap::gather_by_place(const Stage& stage, const GatherPoint& at, 
     if (at.from_above && (from_above != 0.0f).any()) add_side(true, from_above);
     if (at.from_below && (from_below != 0.0f).any()) add_side(false, from_below);
     gathered.photons = static_cast<std::uint32_t>(photons + 0.5f);
+    if (areas && !areas->flat_disc && at.point.object != no_object &&
+        stage.patch_is_plane(stage.patch_index(at.point))) {
+        gathered.left = static_cast<float>(areas->full / (pi * square(own_radius_m)));
+    }
     return gathered;
 }
 

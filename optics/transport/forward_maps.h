@@ -18,6 +18,7 @@ struct ForwardMaps {
         std::uint32_t indirect_photons = 0;   ///< in the kernel
         float caustic_summed = 0.0f, indirect_summed = 0.0f;  ///< see Gathered
         bool cut = false;                                     ///< by barriers
+        float indirect_left = 1.0f;                           ///< see Gathered
     };
 
     /// Light of the given histories, or-ed, at a point.

@@ -131,15 +131,18 @@ public:
         }
         for (std::thread& thread : threads) thread.join();
         trace_.backward_map_bytes = 0;
+        std::vector<std::vector<CutKernel>> cut_kernels;
         for (const auto& group : groups_) {
             trace_.counts.deposits += group->deposited;
             trace_.counts.backward_photons += group->open_map.map().size();
             trace_.backward_map_bytes += group->open_map.map().bytes();
-            for (const BackwardTally& tally : group->tallies) {
+            for (BackwardTally& tally : group->tallies) {
+                cut_kernels.push_back(std::move(tally.cut_kernels));
                 trace_.counts.backward_segments += tally.segments;
                 trace_.counts.shadow_segments += tally.shadow_segments;
             }
         }
+        add_pooled_bias(cut_kernels, context_.threads, trace_.readings);
         trace_.balance_rays = std::uint64_t{batches_} * forward_rays_per_block;
         trace_.counts.secondary_rays += std::uint64_t{next_batch_} * forward_rays_per_block;
     }

@@ -246,6 +246,11 @@ void trace_phase(const Phase& phase, const TraceContext& context, const Plan& pl
                                    blocks[i], context.planes, maps, trace.readings, counted);
         backward_tallies[i] = std::move(counted);
     });
+    std::vector<std::vector<CutKernel>> cut_kernels;
+    for (BackwardTally& tally : backward_tallies) {
+        cut_kernels.push_back(std::move(tally.cut_kernels));
+    }
+    add_pooled_bias(cut_kernels, context.threads, trace.readings);
     trace.counts.backward_s += backward_watch.seconds();
     trace.lights_found.resize(context.readings.observers().size());
     for (std::size_t i = 0; i < blocks.size(); ++i) {

@@ -103,7 +103,7 @@ Radii radii_of(const Stage& stage, const SensorPlanes& planes, const PilotPhoton
 }  // namespace
 
 Radii Radii::at_phase(std::uint32_t number) const {
-    constexpr double alpha = 4.0 / 5.0, alpha_of_cut = 1.0 / 2.0;
+    constexpr double alpha = 4.0 / 5.0, alpha_of_cut = 2.0 / 3.0;
     const double phase = static_cast<double>(number) + 1.0;
     const double factor = std::pow(phase, (alpha - 1.0) / 2.0);
     Radii shrunk = *this;

@@ -29,9 +29,11 @@ public:
     /// left is O(r^4): alpha = 4/5 balances that, and the error falls with N^-0.4, not N^-0.33.
     ///
     /// Where half of a disc is cut off, as in the corner between two walls, the bias of smooth
-    /// light is O(r): there alpha = 1/2 balances its square, if cut kernels are told apart at all.
+    /// light is O(r), and when that is taken off, O(r^2): there alpha = 2/3 balances it, if cut
+    /// kernels are told apart at all.
     Radii at_phase(std::uint32_t number) const;
     void tell_cut_kernels_apart() { tells_cut_ = true; }
+    bool tells_cut_kernels_apart() const { return tells_cut_; }
     /// Of the radius, that is left where half of a kernel's disc is cut off, see cut_radius_m().
     double share_of_cut() const { return share_of_cut_; }
 

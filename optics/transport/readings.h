@@ -36,6 +36,9 @@ public:
     /// Adds what a kernel collected, with its bias as measured in this phase, to a bin.
     void add(const Phase& phase, std::size_t bin, const Lanes& radiance, const Lanes& bias);
 
+    /// Adds to the bias of a pixel [cd/m2].
+    void add_bias(std::size_t bin, double bias) { values_[bin].y_bias += bias; }
+
     /// The same of X, Y and Z in the first three lanes.
     void add_tristimulus(std::size_t bin, const Lanes& xyz, const Lanes& bias);
 

@@ -301,8 +301,8 @@ TEST_CASE("Kernels are not shared near a barrier that those around would reach a
 
 TEST_CASE("Kernels that a rim cuts shrink faster, and their bias with them", "[analytic]") {
     // E = 1 + d, d the distance from the rim in first radii. Half of a disc around a point of the
-    // rim has its middle at 4 r / 3 pi. Whole kernels of the phase number 16 have 16^(-1/10) of the
-    // first radius; a half one has 16^(-1/4), a half.
+    // rim has its middle at 4 r / 3 pi. Whole kernels of the phase number 64 have 64^(-1/10) of the
+    // first radius; a half one has 64^(-1/6), a half.
     const Plate plate;
     const Stage stage(plate.scene.parts);
     const View view(plate, stage);
@@ -322,13 +322,13 @@ TEST_CASE("Kernels that a rim cuts shrink faster, and their bias with them", "[a
         return pi * static_cast<double>(light.radiance[0]);
     };
     const auto of_radius = [](double radii) { return 1.0 + 4.0 * radii / (3.0 * pi); };
-    CHECK(std::abs(at_rim(first.at_phase(15)) - of_radius(std::pow(16.0, -0.1))) < 0.01);
+    CHECK(std::abs(at_rim(first.at_phase(63)) - of_radius(std::pow(64.0, -0.1))) < 0.01);
     first.tell_cut_kernels_apart();
-    const double in_first = at_rim(first.at_phase(0)), later = at_rim(first.at_phase(15));
-    INFO("E of the first phase " << in_first << ", of the 16th " << later);
+    const double in_first = at_rim(first.at_phase(0)), later = at_rim(first.at_phase(63));
+    INFO("E of the first phase " << in_first << ", of the 64th " << later);
     CHECK(std::abs(in_first - of_radius(1.0)) < 0.01);
     CHECK(std::abs(later - of_radius(0.5)) < 0.01);
-    CHECK_FALSE(std::abs(later - of_radius(std::pow(16.0, -0.1))) < 0.01);
+    CHECK_FALSE(std::abs(later - of_radius(std::pow(64.0, -0.1))) < 0.01);
 
     // Between, in proportion to what is left beyond half of the disc.
     const auto left = [](double share) {

@@ -1,12 +1,14 @@
 // The bias of cut kernels, told by all that are cut alike around them.
 #include "optics/transport/pooled_bias.h"
 
-#include <catch2/catch.hpp>
-
 #include "core/random.h"
+#include "optics/transport/bin_gathers.h"
+#include "tests/support/traced_scene.h"
+#include "tests/support/truth_checks.h"
 
 using namespace lucerna;
 using namespace lucerna::optics;
+using test::TracedScene;
 
 namespace {
 
@@ -114,4 +116,80 @@ TEST_CASE("The pooled bias has the noise of a mean along the edge", "[analytic]"
     CHECK(std::abs(variance / expected - 1.0) < tolerance);
     // Were only the nearest node read:
     CHECK_FALSE(std::abs(variance / (2.0 / 3.0 / per_node) - 1.0) < tolerance);
+}
+
+TEST_CASE("Rays for which one kernel stands have its bias once", "[analytic]") {
+    // E = 1 + x / r on a white plate that ends at x = 0. Half of a disc around a point of the rim
+    // has its middle at 4 r / 3 pi, which is the bias of E, and which both of its kernels tell.
+    constexpr double radius_m = 0.05, step_m = radius_m / 80.0, rays = 7.0;
+    test::SceneBuilder scene;
+    const BsdfId paint = scene.diffuse(1.0);
+    const ObjectId plate = scene.object("plate", Rectangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, paint);
+    scene.light("lamp", PointLight{{0, 0, 1}}, 1.0);
+    scene.camera({0, 0.5, 1}, {0, 0.5, 0}, Vec3::UnitY(), 0.01, 1, 1);
+    TracedScene traced(scene);
+    std::vector<Photon> photons;
+    for (int i = 0; i < 100; ++i) {
+        for (int j = -100; j < 100; ++j) {
+            const double x = (i + 0.5) * step_m, y = 0.5 + (j + 0.5) * step_m;
+            const double flux = (1.0 + x / radius_m) * step_m * step_m * rays;
+            photons.push_back({{{x, y, 0}, Vec3::UnitZ(), plate},
+                               -Vec3::UnitZ(),
+                               Lanes::Constant(static_cast<float>(flux)),
+                               History::indirect});
+        }
+    }
+    ForwardMaps maps;
+    maps.indirect_radii = Radii(std::vector<double>(traced.stage.patch_count(), radius_m));
+    maps.indirect_radii.tell_cut_kernels_apart();
+    maps.indirect = ForwardMap(traced.stage, maps.indirect_radii, {&photons, 1},
+                               static_cast<std::uint64_t>(rays), 1);
+
+    const Phase phase(traced.stage, 1, 0);
+    constexpr std::uint32_t count = 8;
+    PhaseReadings readings = traced.readings.new_phase();
+    BinGathers gathers(phase, traced.readings.observers().front(), maps, readings);
+    gathers.start(0, {count, count, 0, 1.0, false, 1.0, nullptr, nullptr});
+    const SurfacePoint point{{1e-9, 0.5, 0}, Vec3::UnitZ(), plate};
+    const Frame frame(point.normal);
+    const Vec3 wo = Vec3::UnitZ();
+    const SurfaceOptics optics = optics_at(phase, no_object, no_object, false, 0);
+    Path path;
+    path.weight = Lanes::Constant(1.0f / count);
+    for (std::uint32_t ray = 0; ray < count; ++ray) {
+        gathers.next_ray(ray);
+        gathers.where_seen({point, frame, wo, traced.stage.parts().bsdfs[paint], optics},
+                           mask(History::indirect), path, true);
+    }
+    std::vector<CutKernel> kernels = gathers.take_cut_kernels();
+    REQUIRE(kernels.size() == 1);
+    CHECK(std::abs(kernels.front().left - 0.5f) < 1e-6f);
+    add_pooled_bias({&kernels, 1}, 1, readings);
+    traced.readings.fold(phase, readings, 1);
+    const Estimate pixel =
+        traced.readings.images(traced.stage.parts(), 1).front().luminance.front();
+    const double of_white = phase.luminous(Lanes::Constant(static_cast<float>(1.0 / pi)));
+    const double bias = 4.0 / (3.0 * pi);
+    CHECK(std::abs(pixel.mean() / of_white - (1.0 + bias)) < 0.01);
+    CHECK(std::abs(pixel.bias() / of_white - bias) < 0.02);  // photons stand 1/80 r apart
+}
+
+TEST_CASE("Images count the bias of cut kernels with every scheduler", "[unit]") {
+    // All kernels that are seen are cut by the rim, and there are no caustics.
+    test::SceneBuilder scene;
+    scene.object("floor", Rectangle{{0, 0, 0}, {0.02, 0, 0}, {0, 1, 0}}, scene.diffuse(0.5));
+    scene.object("wall", Rectangle{{-1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, scene.diffuse(0.5));
+    scene.light("lamp", PointLight{{0, 0.5, 0.5}}, 100.0);
+    scene.camera({0.01, 0.5, 1}, {0.01, 0.5, 0}, Vec3::UnitY(), 0.01, 4, 4);
+    scene.points({{0.5, 0.5, 0.1}}, Vec3::UnitZ());  // has deposits, and so a map of groups
+    for (const Scheduler scheduler : {Scheduler::ordered, Scheduler::asynchronous,
+                                      Scheduler::synchronous, Scheduler::two_level}) {
+        Settings settings = test::settings_of(Method::automatic, {2, 200000});
+        settings.scheduler = scheduler;
+        settings.threads = 2;
+        const Estimate mean = simulate(scene.parts, settings).images.front().mean;
+        INFO("scheduler " << static_cast<int>(scheduler) << ": mean " << mean.mean() << ", bias "
+                          << mean.bias());
+        CHECK(mean.bias() != 0.0);
+    }
 }

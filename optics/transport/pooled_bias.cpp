@@ -91,10 +91,11 @@ std::vector<double> pooled_bias(std::span<const std::vector<CutKernel>> lists, i
     // Side by side, those of each in the order of the lists.
     std::vector<std::size_t> order(kernels.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return kernels[i]->side; });
+    const auto side = [&](std::size_t i) { return kernels[i]->side; };
+    std::ranges::stable_sort(order, {}, side);
     std::vector<std::size_t> starts;
     for (std::size_t i = 0; i < order.size(); ++i) {
-        if (i == 0 || kernels[order[i]]->side != kernels[order[i - 1]]->side) starts.push_back(i);
+        if (i == 0 || side(order[i]) != side(order[i - 1])) starts.push_back(i);
     }
     starts.push_back(order.size());
     std::vector<double> bias(kernels.size());

@@ -50,10 +50,9 @@ void BinGathers::where_seen(const GatherPoint& at, std::uint8_t histories, const
         shared.seen_m2 = camera_->seen_by_pixel_m2(at.point.position, at.point.normal) *
                          rays_.pixels * rays_.per_gather / rays_.count;
     }
-    const bool cut_apart = straight && camera_;
     if (path.hero_only || rays_.per_gather == 1) {
         const auto found = gathered(shared, histories, weight);
-        return cut_apart ? add_cut(found, at, at.point.position, weight) : add(found, weight);
+        return straight ? add_straight(found, at, at.point.position, weight) : add(found, weight);
     }
     const std::uint32_t patch = kernel_patch(phase_.stage, at.point);
     const bool above = at.wo.z() > 0.0;
@@ -70,8 +69,7 @@ void BinGathers::where_seen(const GatherPoint& at, std::uint8_t histories, const
         seen->found = gathered(shared, histories, weight);
     }
     --seen->rays_left;
-    if (cut_apart) return add_cut(seen->found, at, seen->position, weight);
-    add(seen->found, weight);
+    add_straight(seen->found, at, seen->position, weight);
 }
 
 // Many rays of a meter see nearly the same points: what one finds stands for all that come close to
@@ -140,10 +138,10 @@ void BinGathers::add(const ForwardMaps::Found& found, const Lanes& weight) {
     readings_.add_steps(bin_, luminous(light.slope), luminous(light.step));
 }
 
-void BinGathers::add_cut(const ForwardMaps::Found& found, const GatherPoint& at, const Vec3& centre,
-                         const Lanes& weight) {
+void BinGathers::add_straight(const ForwardMaps::Found& found, const GatherPoint& at,
+                              const Vec3& centre, const Lanes& weight) {
     const float mean_weight = weight.mean();
-    if (found.indirect_left == 1.0f || !(mean_weight > 0.0f)) return add(found, weight);
+    if (!camera_ || found.indirect_left == 1.0f || !(mean_weight > 0.0f)) return add(found, weight);
     readings_.add(phase_, bin_, weight * found.light.radiance,
                   weight * (found.light.bias - found.indirect_bias));
     const Eigen::Vector3f position = centre.cast<float>();

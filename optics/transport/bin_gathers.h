@@ -53,9 +53,10 @@ private:
     void by_meter(const GatherPoint& at, std::uint8_t histories, const Lanes& weight);
     ForwardMaps::Found gathered(const GatherPoint& at, std::uint8_t histories, const Lanes& weight);
     void add(const ForwardMaps::Found& found, const Lanes& weight);
-    /// The same, but the bias of a cut kernel.
-    void add_cut(const ForwardMaps::Found& found, const GatherPoint& at, const Vec3& centre,
-                 const Lanes& weight);
+    /// The same, but the bias of a cut kernel that a camera sees straight.
+    /// @param centre  of the kernel.
+    void add_straight(const ForwardMaps::Found& found, const GatherPoint& at, const Vec3& centre,
+                      const Lanes& weight);
 
     const Phase& phase_;
     const ForwardMaps& maps_;

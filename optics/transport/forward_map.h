@@ -122,8 +122,7 @@ struct Gathered {
     Lanes bias = Lanes::Zero();      ///< of it, as both kernels tell
     std::uint32_t photons = 0;       ///< in the kernel
     float summed = 0.0f;  ///< photons added up for it: a share of them where gathers are shared
-    /// Share of the area of the kernel's disc; told on plane patches where cut kernels are told
-    /// apart.
+    /// Share of the area of the kernel's disc; told of diffuse plane patches.
     float left = 1.0f;
     /// Where asked, in flat discs: first moment over r, which points to where it is brighter; and
     /// that of a step, see bias_per_moment_of_step.

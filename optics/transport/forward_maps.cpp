@@ -44,7 +44,7 @@ ForwardMaps::Found ForwardMaps::gather(const Phase& phase, const GatherPoint& at
         found.indirect_bias = light.bias;
         found.indirect_photons = light.photons;
         found.indirect_summed = light.summed;
-        if (indirect_radii.tells_cut_kernels_apart()) found.indirect_left = light.left;
+        found.indirect_left = light.left;
         found.light += light;
     }
     return found;

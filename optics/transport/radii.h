@@ -33,7 +33,6 @@ public:
     /// kernels are told apart at all.
     Radii at_phase(std::uint32_t number) const;
     void tell_cut_kernels_apart() { tells_cut_ = true; }
-    bool tells_cut_kernels_apart() const { return tells_cut_; }
     /// Of the radius, that is left where half of a kernel's disc is cut off, see cut_radius_m().
     double share_of_cut() const { return share_of_cut_; }
 

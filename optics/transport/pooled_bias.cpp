@@ -1,8 +1,8 @@
 #include "optics/transport/pooled_bias.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <unordered_map>
 
 #include "core/parallel.h"
@@ -28,18 +28,21 @@ public:
           shift_(scrambled(origin_), scrambled(-origin_)) {}
 
     void add(const CutKernel& kernel) {
-        for (const auto& [key, share] : nodes_around(kernel)) {
-            const double weight = share * static_cast<double>(kernel.weight);
-            Node& node = nodes_[key];
-            node.weight += weight;
-            node.bias += weight * static_cast<double>(kernel.bias);
+        const auto [nodes, shares] = around(kernel);
+        for (unsigned corner = 0; corner < corners; ++corner) {
+            const double weight = shares[corner] * static_cast<double>(kernel.weight);
+            nodes[corner]->weight += weight;
+            nodes[corner]->bias += weight * static_cast<double>(kernel.bias);
         }
     }
 
-    double at(const CutKernel& kernel) const {
+    /// @param kernel  one of those that were added.
+    double at(const CutKernel& kernel) {
         double bias = 0.0;
-        for (const auto& [key, share] : nodes_around(kernel)) {
-            if (share > 0.0) bias += share * nodes_.at(key).bias / nodes_.at(key).weight;
+        const auto [nodes, shares] = around(kernel);
+        for (unsigned corner = 0; corner < corners; ++corner) {
+            const Node& node = *nodes[corner];
+            if (shares[corner] > 0.0) bias += shares[corner] * node.bias / node.weight;
         }
         return bias;
     }
@@ -48,27 +51,46 @@ private:
     struct Node {
         double weight = 0.0, bias = 0.0;
     };
-    struct Share {
-        std::uint64_t key;
-        double share;
+    static constexpr unsigned corners = 8;  // of a cell
+    using Cell = std::array<Node*, corners>;
+    struct Around {
+        const Cell& nodes;
+        std::array<double, corners> shares;
     };
 
-    std::array<Share, 8> nodes_around(const CutKernel& kernel) const {
+    Around around(const CutKernel& kernel) {
         const Vec3 way = kernel.position.cast<double>() - origin_;
         const std::array<double, 3> place{way.dot(frame_.tangent) / spacing_m_ + shift_.x(),
                                           way.dot(frame_.bitangent) / spacing_m_ + shift_.y(),
                                           static_cast<double>(kernel.left) / left_per_node};
-        constexpr unsigned bits = 64 / 3;
-        std::array<Share, 8> nodes;
-        for (unsigned corner = 0; corner < nodes.size(); ++corner) {
-            nodes[corner] = {0, 1.0};
+        std::array<std::int64_t, 3> below;
+        std::array<double, corners> shares;
+        shares.fill(1.0);
+        for (unsigned axis = 0; axis < 3; ++axis) {
+            const double floor = std::floor(place[axis]), rest = place[axis] - floor;
+            below[axis] = static_cast<std::int64_t>(floor);
+            for (unsigned corner = 0; corner < corners; ++corner) {
+                shares[corner] *= corner >> axis & 1u ? rest : 1.0 - rest;
+            }
+        }
+        return {cell(below), shares};
+    }
+
+    const Cell& cell(const std::array<std::int64_t, 3>& below) {
+        const auto key_of = [&](unsigned corner) {
+            constexpr unsigned bits = 64 / 3;
+            std::uint64_t key = 0;
             for (unsigned axis = 0; axis < 3; ++axis) {
-                const unsigned upper = corner >> axis & 1u;
-                const double below = std::floor(place[axis]), rest = place[axis] - below;
-                const auto index =
-                    static_cast<std::uint64_t>(static_cast<std::int64_t>(below)) + upper;
-                nodes[corner].key |= (index & ((std::uint64_t{1} << bits) - 1)) << (axis * bits);
-                nodes[corner].share *= upper ? rest : 1.0 - rest;
+                const auto index = static_cast<std::uint64_t>(below[axis]) + (corner >> axis & 1u);
+                key |= (index & ((std::uint64_t{1} << bits) - 1)) << (axis * bits);
+            }
+            return key;
+        };
+        const auto [entry, is_new] = cells_.try_emplace(key_of(0));
+        Cell& nodes = entry->second;
+        if (is_new) {
+            for (unsigned corner = 0; corner < corners; ++corner) {
+                nodes[corner] = &nodes_[key_of(corner)];
             }
         }
         return nodes;
@@ -79,31 +101,29 @@ private:
     double spacing_m_;
     Vec2 shift_;  // the nodes lie elsewhere in each phase
     std::unordered_map<std::uint64_t, Node> nodes_;
+    std::unordered_map<std::uint64_t, Cell> cells_;  // one look-up for each kernel, not eight
 };
 
 }  // namespace
 
 std::vector<double> pooled_bias(std::span<const std::vector<CutKernel>> lists, int threads) {
-    std::vector<const CutKernel*> kernels;
+    struct Numbered {
+        const CutKernel* kernel;
+        std::size_t number;
+    };
+    std::map<std::uint32_t, std::vector<Numbered>> sides;
+    std::size_t count = 0;
     for (const auto& list : lists) {
-        for (const CutKernel& kernel : list) kernels.push_back(&kernel);
+        for (const CutKernel& kernel : list) sides[kernel.side].push_back({&kernel, count++});
     }
-    // Side by side, those of each in the order of the lists.
-    std::vector<std::size_t> order(kernels.size());
-    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    const auto side = [&](std::size_t i) { return kernels[i]->side; };
-    std::ranges::stable_sort(order, {}, side);
-    std::vector<std::size_t> starts;
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        if (i == 0 || side(order[i]) != side(order[i - 1])) starts.push_back(i);
-    }
-    starts.push_back(order.size());
-    std::vector<double> bias(kernels.size());
-    for_each_block(starts.size() - 1, threads, [&](std::size_t i) {
-        const auto of_side = std::span(order).subspan(starts[i], starts[i + 1] - starts[i]);
-        TableOfBias table(*kernels[of_side.front()]);
-        for (const std::size_t k : of_side) table.add(*kernels[k]);
-        for (const std::size_t k : of_side) bias[k] = table.at(*kernels[k]);
+    std::vector<const std::vector<Numbered>*> tasks;
+    for (const auto& [side, kernels] : sides) tasks.push_back(&kernels);
+    std::vector<double> bias(count);
+    for_each_block(tasks.size(), threads, [&](std::size_t i) {
+        const std::vector<Numbered>& kernels = *tasks[i];
+        TableOfBias table(*kernels.front().kernel);
+        for (const Numbered& k : kernels) table.add(*k.kernel);
+        for (const Numbered& k : kernels) bias[k.number] = table.at(*k.kernel);
     });
     return bias;
 }

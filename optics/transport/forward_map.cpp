@@ -19,8 +19,12 @@ constexpr double most_lattice_points = 1 << 17;
 constexpr double most_seen_per_cell = 0.5;
 // Bias of what is interpolated over that of the kernels: along each axis, between points at a
 // distance h, the second moment is h^2 / 6 in the mean over all places, that of the disc is r^2
-// / 4.
-constexpr double bias_of_interpolation = 1.0 + spacing_per_radius * spacing_per_radius * 2.0 / 3.0;
+// / 4. Where half of the disc is cut off, the bias is O(r), and what is linear stays.
+constexpr float bias_of_interpolation(float cut_off) {
+    constexpr auto of_whole =
+        static_cast<float>(2.0 / 3.0 * spacing_per_radius * spacing_per_radius);
+    return 1.0f + of_whole * std::clamp(1.0f - 2.0f * cut_off, 0.0f, 1.0f);
+}
 
 // Elsewhere the distance along the surface may be longer than the straight one.
 bool is_straight(const Stage& stage, const SurfacePoint& p) {
@@ -36,6 +40,18 @@ KernelAreas areas_left(const Stage& stage, const GatherPoint& at, double radius_
         areas = {areas.full, areas.full, true};
     }
     return areas;
+}
+
+// A kernel, as narrow as it is where a part of it is cut off.
+struct OwnKernel {
+    double radius_m;
+    KernelAreas areas;
+};
+OwnKernel own_kernel(const Stage& stage, const GatherPoint& at, double radius_m,
+                     double share_of_cut) {
+    const KernelAreas areas = areas_left(stage, at, radius_m);
+    const double own_m = cut_radius_m(areas, radius_m, share_of_cut);
+    return {own_m, own_m < radius_m ? areas_left(stage, at, own_m) : areas};
 }
 
 // Light that arrives in a kernel, before or after the surface scatters it.
@@ -318,14 +334,15 @@ Arriving ForwardMap::arriving(const Stage& stage, const GatherPoint& at, bool ab
         add_by_place(at, buckets_around(stage, at, cell_m, radius_m),
                      Candidate::key_of(kernel_patch(stage, at.point), above, false), radius_m,
                      areas.flat_disc, sums);
-    if (photons == 0) return {};
     const Gathered light = sums.over(areas, radius_m, rays_);
-    return {light.radiance, light.bias, static_cast<float>(photons)};
+    const double cut_off = areas.flat_disc ? 0.0 : 1.0 - areas.full / (pi * square(radius_m));
+    return {light.radiance, light.bias, static_cast<float>(photons), static_cast<float>(cut_off)};
 }
 
 // Between points of the lattice, where so much is seen around them that it pays.
 std::optional<Arriving> ForwardMap::arriving_between(const Stage& stage, const GatherPoint& at,
-                                                     bool above, double radius_m) const {
+                                                     bool above, double radius_m,
+                                                     double share_of_cut) const {
     const double spacing_m = spacing_per_radius * radius_m;
     if (!(at.seen_m2 <= most_seen_per_cell * square(spacing_m))) return std::nullopt;
     const std::uint32_t patch = kernel_patch(stage, at.point);
@@ -341,16 +358,16 @@ std::optional<Arriving> ForwardMap::arriving_between(const Stage& stage, const G
         SurfacePoint point = origin;
         point.position += i * along_x + j * along_y;
         const GatherPoint there{point, at.frame, at.wo, at.bsdf, at.optics};
-        const KernelAreas areas = areas_left(stage, there, radius_m);
-        // Kernels that a rim cuts have radii of their own.
-        if (!areas.flat_disc) return std::nullopt;
-        return arriving(stage, there, above, radius_m, radius_m, areas);
+        const OwnKernel own = own_kernel(stage, there, radius_m, share_of_cut);
+        // Only points of the patch; those in its corners are left out with those beyond.
+        if (own.areas.full < 0.5 * pi * square(own.radius_m)) return std::nullopt;
+        Arriving light = arriving(stage, there, above, radius_m, own.radius_m, own.areas);
+        light.bias *= bias_of_interpolation(light.cut_off);
+        return light;
     };
-    auto light = lattice_points_->between({patch, above, at.optics.hero_only},
-                                          way.dot(frame.tangent) / spacing_m,
-                                          way.dot(frame.bitangent) / spacing_m, gather);
-    if (light) light->bias *= static_cast<float>(bias_of_interpolation);
-    return light;
+    return lattice_points_->between({patch, above, at.optics.hero_only},
+                                    way.dot(frame.tangent) / spacing_m,
+                                    way.dot(frame.bitangent) / spacing_m, gather);
 }
 
 // What a diffuse surface scatters, by places alone.
@@ -359,34 +376,30 @@ Gathered ForwardMap::gather_by_place(const Stage& stage, const GatherPoint& at, 
                                      const Lanes& from_below) const {
     Gathered gathered;
     float photons = 0.0f;
-    std::optional<KernelAreas> areas;
-    double own_radius_m = radius_m;
+    std::optional<OwnKernel> own;
+    const bool on_plane =
+        at.point.object != no_object && stage.patch_is_plane(stage.patch_index(at.point));
     const auto add_side = [&](bool above, const Lanes& scattered) {
         std::optional<Arriving> light;
         float share = 1.0f;
-        if (radius_m == cell_m) light = arriving_between(stage, at, above, radius_m);
+        if (radius_m == cell_m) {
+            light = arriving_between(stage, at, above, radius_m, share_of_cut);
+        }
         if (light) {
             share = static_cast<float>(at.seen_m2 / square(spacing_per_radius * radius_m));
         } else {
-            if (!areas) {
-                areas = areas_left(stage, at, radius_m);
-                own_radius_m = cut_radius_m(*areas, radius_m, share_of_cut);
-                if (own_radius_m < radius_m) areas = areas_left(stage, at, own_radius_m);
-            }
-            light = arriving(stage, at, above, cell_m, own_radius_m, *areas);
+            if (!own) own = own_kernel(stage, at, radius_m, share_of_cut);
+            light = arriving(stage, at, above, cell_m, own->radius_m, own->areas);
         }
         gathered.radiance += light->density * scattered;
         gathered.bias += light->bias * scattered;
         gathered.summed += share * light->photons;
         photons += light->photons;
+        if (light->cut_off > 0.0f && on_plane) gathered.left = 1.0f - light->cut_off;
     };
     if (at.from_above && (from_above != 0.0f).any()) add_side(true, from_above);
     if (at.from_below && (from_below != 0.0f).any()) add_side(false, from_below);
     gathered.photons = static_cast<std::uint32_t>(photons + 0.5f);
-    if (areas && !areas->flat_disc && at.point.object != no_object &&
-        stage.patch_is_plane(stage.patch_index(at.point))) {
-        gathered.left = static_cast<float>(areas->full / (pi * square(own_radius_m)));
-    }
     return gathered;
 }
 

@@ -206,7 +206,7 @@ private:
     Arriving arriving(const Stage& stage, const GatherPoint& at, bool above, double cell_m,
                       double radius_m, const KernelAreas& areas) const;
     std::optional<Arriving> arriving_between(const Stage& stage, const GatherPoint& at, bool above,
-                                             double radius_m) const;
+                                             double radius_m, double share_of_cut) const;
     Gathered gather_by_place(const Stage& stage, const GatherPoint& at, double cell_m,
                              double radius_m, double share_of_cut, const Lanes& from_above,
                              const Lanes& from_below) const;

@@ -19,6 +19,7 @@ struct Arriving {
     Lanes density = Lanes::Zero();  ///< of flux, at the full radius [W/(m2 nm)]
     Lanes bias = Lanes::Zero();     ///< of it, as both kernels tell
     float photons = 0.0f;           ///< in the kernel
+    float cut_off = 0.0f;           ///< share of the area of its disc
 };
 
 /// A table of points that any number of threads fill and read at once. What a point holds follows
@@ -55,6 +56,7 @@ public:
                 sum.density += weight * light->density;
                 sum.bias += weight * light->bias;
                 sum.photons += weight * light->photons;
+                sum.cut_off += weight * light->cut_off;
             }
         }
         return sum;

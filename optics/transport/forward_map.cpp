@@ -31,6 +31,10 @@ bool is_straight(const Stage& stage, const SurfacePoint& p) {
     return p.object == no_object || !unrolls(stage.parts().objects[p.object].shape, p.patch);
 }
 
+bool is_on_plane_patch(const Stage& stage, const SurfacePoint& p) {
+    return p.object != no_object && stage.patch_is_plane(stage.patch_index(p));
+}
+
 // Areas of a kernel, or of what barriers leave of it.
 KernelAreas areas_left(const Stage& stage, const GatherPoint& at, double radius_m) {
     KernelAreas areas = at.region ? KernelAreas{at.region->area_m2(radius_m),
@@ -377,8 +381,6 @@ Gathered ForwardMap::gather_by_place(const Stage& stage, const GatherPoint& at, 
     Gathered gathered;
     float photons = 0.0f;
     std::optional<OwnKernel> own;
-    const bool on_plane =
-        at.point.object != no_object && stage.patch_is_plane(stage.patch_index(at.point));
     const auto add_side = [&](bool above, const Lanes& scattered) {
         std::optional<Arriving> light;
         float share = 1.0f;
@@ -395,7 +397,9 @@ Gathered ForwardMap::gather_by_place(const Stage& stage, const GatherPoint& at, 
         gathered.bias += light->bias * scattered;
         gathered.summed += share * light->photons;
         photons += light->photons;
-        if (light->cut_off > 0.0f && on_plane) gathered.left = 1.0f - light->cut_off;
+        if (light->cut_off > 0.0f && is_on_plane_patch(stage, at.point)) {
+            gathered.left = 1.0f - light->cut_off;
+        }
     };
     if (at.from_above && (from_above != 0.0f).any()) add_side(true, from_above);
     if (at.from_below && (from_below != 0.0f).any()) add_side(false, from_below);
